@@ -1,0 +1,51 @@
+"""Which compensations of an axis are on: the conditions of each kind, and the commands of its enable input.
+
+Leadscrew: the axis is referenced. Cross: its master is. Plane: both masters and the slave are. Crosstalk: the
+adaptation axes are. Friction acts whether referenced or not (semantics §5–§9).
+"""
+
+from __future__ import annotations
+
+from .crosstalk import CROSSTALK_GRID, CROSSTALK_LINE
+from .records import AxisInputs, AxisState, AxisTable, Inputs, SwitchState, SwitchTable
+from .switching import begin_switch, switch
+
+
+def activate(table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs) -> None:
+    """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them."""
+    released = inputs.reset or inputs.program_end or not given.referenced
+    if table.cross.switch.configured:
+        ready = inputs.axis[table.cross.master].referenced
+        advance(table.cross.switch, axis.cross.switch, axis, given, given.cross_enable, ready, released)
+    if table.plane.switch.configured:
+        ready = inputs.axis[table.plane.master1].referenced and inputs.axis[table.plane.master2].referenced
+        ready = ready and given.referenced
+        advance(table.plane.switch, axis.plane.switch, axis, given, given.plane_enable, ready, released)
+    if table.crosstalk.switch.configured:
+        ready = True
+        if table.crosstalk.variant >= CROSSTALK_LINE:
+            ready = inputs.axis[table.crosstalk.adaptation1].referenced
+        if table.crosstalk.variant >= CROSSTALK_GRID:
+            ready = ready and inputs.axis[table.crosstalk.adaptation2].referenced
+        advance(table.crosstalk.switch, axis.crosstalk.switch, axis, given, given.crosstalk_enable, ready, released)
+    if table.leadscrew.switch.configured:
+        ready = given.referenced
+        advance(table.leadscrew.switch, axis.leadscrew.switch, axis, given, given.leadscrew_enable, ready, released)
+    if table.friction.switch.configured:
+        advance(table.friction.switch, axis.friction.switch, axis, given, given.friction_enable, True, released)
+
+
+def advance(
+    table: SwitchTable,
+    state: SwitchState,
+    axis: AxisState,
+    given: AxisInputs,
+    enable: bool,
+    ready: bool,
+    released: bool,
+) -> None:
+    """Advance one switch by one cycle, or set it in the first."""
+    if axis.started:
+        switch(table, state, enable, ready, released, axis.moving, given.no_move)
+    else:
+        begin_switch(table, state, enable, ready, released)

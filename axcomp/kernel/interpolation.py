@@ -1,0 +1,49 @@
+"""Piecewise linear curves: the last interval is tried first, then bisection: 10 000 points cost what 10 cost."""
+
+from __future__ import annotations
+
+from .record import Vec, whole
+from .records import Curve, Lookup
+
+
+def find_interval(pool: Vec, first: int, points: int, x: float, lookup: Lookup) -> int:
+    """Return i with x[i] ≤ x < x[i + 1], for x within the abscissae pool[first …] and points ≥ 2."""
+    i = lookup.interval
+    if pool[first + i] <= x < pool[first + i + 1]:
+        return i
+    low = 0
+    high = points - 1
+    while high - low > 1:
+        middle = (low + high) >> 1
+        if x < pool[first + middle]:
+            high = middle
+        else:
+            low = middle
+    lookup.interval = low
+    return low
+
+
+def curve_value(pool: Vec, curve: Curve, x: float, lookup: Lookup) -> float:
+    """Return y(x): linear between the points, the end values held outside."""
+    if x <= pool[curve.x]:
+        return pool[curve.y]
+    last = curve.points - 1
+    if x >= pool[curve.x + last]:
+        return pool[curve.y + last]
+    i = find_interval(pool, curve.x, curve.points, x, lookup)
+    x0 = pool[curve.x + i]
+    y0 = pool[curve.y + i]
+    return y0 + (x - x0) / (pool[curve.x + i + 1] - x0) * (pool[curve.y + i + 1] - y0)
+
+
+def fold(x: float, start: float, length: float) -> float:
+    """Return x moved by whole lengths into [start, start + length)."""
+    folded = x - length * whole((x - start) / length)
+    return folded if folded < start + length else start
+
+
+def nearest(change: float, length: float) -> float:
+    """Return a change moved by whole lengths into [−length/2, length/2): the short way round. Length 0: unchanged."""
+    if length > 0.0:
+        return change - length * whole(change / length + 0.5)
+    return change
