@@ -7,8 +7,9 @@ else) or ``Annotated[list[T], N]`` (N elements of T). ``zero`` makes one with ev
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable
 from functools import cache
-from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
 
 Vec = list[float]
 """A table of floats owned by the caller; in C ``const double *``."""
@@ -28,13 +29,13 @@ def zeros(n: int) -> list[float]:
 
 def zero(cls: type[Record]) -> Record:
     """Return a record of class ``cls`` with every number 0, every Boolean False and every ``Vec`` empty."""
-    return cls(**{name: _zero_of(hint) for name, hint in fields_of(cls).items()})
+    return cls(**{name: _zero_of(hint) for name, hint in fields_of(cast(Hashable, cls)).items()})
 
 
 @cache
-def fields_of(cls: Any) -> dict[str, Any]:
+def fields_of(cls: Hashable) -> dict[str, Any]:
     """Return the fields of a record class in declaration order: name → type, with its length where it has one."""
-    return get_type_hints(cls, include_extras=True)
+    return get_type_hints(cast(type, cls), include_extras=True)
 
 
 def _zero_of(hint: Any) -> Any:
