@@ -1,0 +1,1 @@
+"""Axis compensations of CNC machines: from the controller's lists to an FMU."""

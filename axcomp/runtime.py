@@ -1,0 +1,160 @@
+"""A machine in operation: tables, state, inputs and outputs, the clock, snapshots and updates.
+
+The FMU's slave and the Engine are both thin layers over this. Standard library only.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from .compile import CYCLE_TIME, compile_tables
+from .kernel.adopt import adopt
+from .kernel.cycle import cycle
+from .kernel.record import zero
+from .kernel.records import Inputs, Outputs, State, Tables
+from .machine import KINDS, Axis, Machine
+from .snapshot import SnapshotError, pack, unpack
+
+ON_INSTANT = 1e-6
+"""Share of a cycle by which a communication point may miss the instant of a cycle and still mean it."""
+
+CAPACITY_ERRORS = {"leadscrew": 110638, "cross": 110639, "plane": 110640, "friction": 110641}
+"""Error when an update changes max_points, by kind (P-COMP-00059 … 00062)."""
+
+
+class UpdateError(ValueError):
+    """An update that does not fit the running machine; nothing was changed."""
+
+
+def initial_inputs(tables: Tables) -> Inputs:
+    """Return the inputs before anybody sets them: referenced, and enabled what activates automatically."""
+    inputs = zero(Inputs)
+    del inputs.axis[tables.axis_count :]
+    for table, axis in zip(tables.axis, inputs.axis, strict=False):
+        axis.referenced = True
+        for kind in KINDS:
+            switch = getattr(table, kind).switch
+            setattr(axis, f"{kind}_enable", switch.configured and not switch.manual)
+    return inputs
+
+
+class Runtime:
+    """A machine in operation.
+
+    Parameters
+    ----------
+    machine : Machine
+        Must compile (see ``compile_tables``).
+    cycle_time : float
+        Of the position controller in s.
+
+    Attributes
+    ----------
+    inputs : Inputs
+        Set them before ``advance``; they are held until set again.
+    outputs : Outputs
+        Of the last cycle.
+    """
+
+    def __init__(self, machine: Machine, cycle_time: float = CYCLE_TIME) -> None:
+        self.machine = machine
+        self.tables = compile_tables(machine, cycle_time)
+        self.inputs = initial_inputs(self.tables)
+        self.state = zero(State)
+        self.outputs = zero(Outputs)
+        del self.state.axis[self.tables.axis_count :]
+        del self.outputs.axis[self.tables.axis_count :]
+        self.start_time = 0.0
+        self.cycles = 0
+        self._told: set[int] = set()
+
+    def begin(self, time: float = 0.0) -> None:
+        """Set the clock and compute the outputs of the first cycle without running it (end of initialization)."""
+        self.start_time = time
+        self.cycles = 0
+        cycle(self.tables, copy.deepcopy(self.state), self.inputs, self.outputs)
+
+    def cycle(self) -> None:
+        """Run one cycle: the outputs then belong to the present inputs."""
+        cycle(self.tables, self.state, self.inputs, self.outputs)
+        self.cycles += 1
+
+    def advance(self, time: float) -> None:
+        """Run the cycles whose instants lie before ``time`` (s) and have not been run, with the inputs held."""
+        due = math.ceil((time - self.start_time) / self.tables.cycle_time - ON_INSTANT)
+        while self.cycles < due:
+            self.cycle()
+
+    def save(self) -> bytes:
+        """Return a snapshot of everything that changes: state, inputs, outputs and the clock."""
+        clock = [self.start_time, float(self.cycles)]
+        return pack(self.state, self.inputs, self.outputs, clock)
+
+    def restore(self, data: bytes) -> None:
+        """Go back to a snapshot of this machine; SnapshotError if it is none, and nothing has changed then."""
+        clock = [0.0, 0.0]
+        unpack(data, self.state, self.inputs, self.outputs, clock)
+        self.start_time = clock[0]
+        self.cycles = int(clock[1])
+
+    def notices(self) -> Iterator[str]:
+        """Yield, once each, what the machine's user should know about the motion so far."""
+        for index, axis in enumerate(self.state.axis):
+            if axis.crosstalk.outside and index not in self._told:
+                self._told.add(index)
+                name = self.machine.axes[index].name
+                yield f"axis {name}: the adaptation axes of its crosstalk compensation have left the tests' positions"
+
+    def update(self, machine: Machine) -> dict[str, int]:
+        """Take new lists while the machine runs.
+
+        An axis whose ``max_points`` has changed keeps its old data, and its ``error`` says so.
+
+        Returns
+        -------
+        dict of str to int
+            Axis name → error (110638 … 110641) of the axes that keep their old data.
+
+        Raises
+        ------
+        UpdateError
+            If the axes are not the same, or a compensation is new: the variables of an FMU cannot change.
+        CompileError
+            If the machine cannot be run. Nothing has changed in either case.
+        """
+        old = {axis.number: axis for axis in self.machine.axes}
+        if [(axis.number, axis.name, axis.type) for axis in machine.axes] != [
+            (axis.number, axis.name, axis.type) for axis in self.machine.axes
+        ]:
+            raise UpdateError("the new lists have other axes than the ones in force")
+        for axis in machine.axes:
+            self._refuse_new_kinds(old[axis.number], axis)
+        errors = {axis.name: error for axis in machine.axes if (error := _capacity_error(old[axis.number], axis))}
+        axes = tuple(old[axis.number] if axis.name in errors else axis for axis in machine.axes)
+        machine = replace(machine, axes=axes)
+        tables = compile_tables(machine, self.tables.cycle_time)
+        adopt(self.tables, tables, self.state, self.outputs)
+        self.machine, self.tables = machine, tables
+        for axis, state, outputs in zip(machine.axes, self.state.axis, self.outputs.axis, strict=True):
+            state.error = outputs.error = errors.get(axis.name, 0)
+        return errors
+
+    def _refuse_new_kinds(self, old: Axis, new: Axis) -> None:
+        for kind in KINDS:
+            if getattr(new, kind) is not None and getattr(old, kind) is None:
+                raise UpdateError(f"the new lists give axis {new.name} a {kind} compensation it did not have")
+
+
+def _capacity_error(old: Axis, new: Axis) -> int:
+    """Return the error of the first kind whose max_points differs, 0 where none does."""
+    for kind, error in CAPACITY_ERRORS.items():
+        before, after = getattr(old, kind), getattr(new, kind)
+        if before is not None and after is not None and before.max_points != after.max_points:
+            return error
+    return 0
+
+
+__all__ = ["Runtime", "SnapshotError", "UpdateError", "initial_inputs"]
