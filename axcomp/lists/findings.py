@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -53,3 +54,129 @@ class ListError(Exception):
     def __init__(self, findings: Iterable[Finding]) -> None:
         self.findings = tuple(findings)
         super().__init__("\n".join(str(finding) for finding in self.findings))
+
+
+_ERROR, _WARNING, _INFO = Severity
+
+CODES: dict[str, tuple[Severity, str]] = {
+    # Files
+    "AXC-MISSING": (_ERROR, "A named file does not exist"),
+    "AXC-UNREADABLE": (_ERROR, "A file cannot be read: a directory, no permission, too large"),
+    "AXC-BINARY": (_ERROR, "A file is no text"),
+    "AXC-EMPTY": (_ERROR, "A list has no entry"),
+    "AXC-KIND": (_ERROR, "A list is of another kind than it is used for"),
+    "AXC-PATH": (_WARNING, "A file was found only beside the start-up list or in another case than it is named"),
+    # Grammar
+    "AXC-SYNTAX": (_WARNING, "A line is neither an entry nor a comment"),
+    "AXC-ELISION": (_WARNING, "A line stands for entries left out (… or :)"),
+    "AXC-END": (_WARNING, "Lines follow the End of the list"),
+    "AXC-STRING": (_WARNING, "A string is not closed, or holds characters that only quotes allow"),
+    # Entries
+    "AXC-UNKNOWN": (_WARNING, "An entry is not in the catalogue"),
+    "AXC-TYPO": (_WARNING, "An entry is spelt in a way that only some lists use"),
+    "AXC-TWICE": (_WARNING, "An entry is given twice; the later one counts"),
+    "AXC-INDEX": (_WARNING, "An index is larger than the parameter allows"),
+    "AXC-VALUE": (_WARNING, "A value is not of the parameter's type; the default is used"),
+    "AXC-RANGE": (_WARNING, "A value is outside the range; the default is used"),
+    "AXC-OUTSIDE": (_WARNING, "A value is outside the documented range but usable, and used"),
+    "AXC-UNUSED": (_WARNING, "Entries that nothing uses: beyond the used size, or needed in another mode only"),
+    "AXC-UNIT": (_WARNING, "Increments by default, although the axis does not count 0.1 µm or 0.0001°"),
+    # Axes
+    "AXC-NUMBER": (_ERROR, "The logical axis number of a list is missing or 0"),
+    "AXC-NUMBER-TWICE": (_ERROR, "Two lists of one kind have the same logical axis number; the first one counts"),
+    "AXC-NAME": (_WARNING, "Two axes have the same name; the later one's gets its number added"),
+    "AXC-AXES": (_ERROR, "More axes than the controller has"),
+    "AXC-NO-AXIS-LIST": (_WARNING, "A compensation list belongs to an axis without axis list: nothing activates it"),
+    "110229": (_ERROR, "Logical axis number of the start-up list and of the compensation list differ"),
+    "110086": (_WARNING, "Path resolution: wegaufn is 0; 1 is used"),
+    "110386": (_WARNING, "Path resolution: wegaufz is 0; 1 is used"),
+    "110052": (_WARNING, "Modulo range is not positive; 0 … 360 ° is used"),
+    # Compensations
+    "AXC-INACTIVE": (_INFO, "A table is there, but nothing activates it"),
+    "AXC-NO-TABLE": (_WARNING, "The axis activates a compensation that has no table"),
+    "AXC-GAP": (_WARNING, "A table lacks an entry within its used size; 0 is used"),
+    "AXC-MASTER": (_ERROR, "A master or adaptation axis is missing, unknown or of a type that cannot serve"),
+    "AXC-MASTER-SELF": (_WARNING, "An axis is its own master"),
+    "AXC-ORDER": (_ERROR, "Interpolation points are not strictly ascending"),
+    "AXC-INTERVAL": (_ERROR, "The distance of interpolation points is 0 where it is needed"),
+    "AXC-MODULO-AXIS": (_WARNING, "A modulo table on an axis without modulo counting; it is read without modulo"),
+    "AXC-MODULO-SPAN": (_ERROR, "A modulo table spans more than one modulo range"),
+    "AXC-MODULO-SEAM": (_WARNING, "A modulo table spans exactly one range and its end values differ"),
+    "AXC-AXIS-TYPE": (_ERROR, "The compensation exists for translatory axes only"),
+    "AXC-VARIANT": (_WARNING, "Entries of both variants of the crosstalk compensation; the new one counts"),
+    "AXC-TESTS": (_ERROR, "Too few crosstalk tests, or all in one line"),
+    "AXC-TESTS-FEW": (_WARNING, "Fewer crosstalk tests than the mode should have"),
+    "AXC-TESTS-TWICE": (_WARNING, "Two crosstalk tests at the same place; the later one counts"),
+    "AXC-ACCELERATION": (_ERROR, "The acceleration or deceleration of the crosstalk tests is missing"),
+    "AXC-AT-REST": (_WARNING, "The crosstalk correction at acceleration 0 is not 0"),
+    "70182": (_ERROR, "Plane compensation: invalid master axis number"),
+    "70183": (_ERROR, "Plane compensation: no table"),
+    "70184": (_ERROR, "Plane compensation: wrong type of master axis"),
+    "70245": (_ERROR, "Cross compensation: setpoints are not ascending"),
+    "70495": (_INFO, "Friction compensation: a table is there, but the axis does not activate it (P-AXIS-00522)"),
+    "110591": (_ERROR, "Friction compensation: velocities are negative or not ascending"),
+    "110638": (_ERROR, "Leadscrew compensation: max_points was changed by an update"),
+    "110639": (_ERROR, "Cross compensation: max_points was changed by an update"),
+    "110640": (_ERROR, "Plane compensation: max_points was changed by an update"),
+    "110641": (_ERROR, "Friction compensation: max_points was changed by an update"),
+    "110647": (_ERROR, "A table is larger than its max_points"),
+    # Volumetric compensation
+    "70468": (_ERROR, "Volumetric compensation: a name is neither a parameter nor an axis"),
+    "70469": (_ERROR, "Volumetric compensation: a parameter or an axis is named twice"),
+    "70471": (_ERROR, "Volumetric compensation: GRID is asked for, but the records do not fill a grid"),
+    "70474": (_WARNING, "Volumetric compensation: records on a grid are interpolated by SCATTER"),
+    "70506": (_ERROR, "Volumetric compensation: there is none with this number"),
+    "70507": (_ERROR, "Volumetric compensation: there is no parameter file with this number"),
+    "AXC-RECORD": (_ERROR, "A record has too many or too few columns, or one that is no number"),
+    "AXC-NO-RECORD": (_WARNING, "A parameter is named but has no record; it is not taken"),
+    "AXC-MAGNITUDE": (_ERROR, "A parameter has a value that no machine has: it is in another unit"),
+    "AXC-CONSTANT": (_ERROR, "A parameter that describes the machine depends on positions"),
+    "AXC-ARGUMENTS": (_ERROR, "A parameter depends on different axes in different places"),
+    "AXC-POLYLINE": (_ERROR, "PATH is asked for over axes that make no polyline"),
+    "AXC-MAX-RECORDS": (_ERROR, "More records than max_records"),
+    "AXC-CHAIN": (_ERROR, "The kinematic chain is not X, Y, Z and some of A, B, C, each once"),
+    "AXC-ASSIGNMENT": (_ERROR, "An axis of the chain or of a parameter has no machine axis, or shares one"),
+    "AXC-VECTOR": (_WARNING, "A direction is not scaled to length 1; it is scaled, or left out if it is 0"),
+    "AXC-SINGULAR": (_ERROR, "The directions of X, Y and Z lie in one plane"),
+    "AXC-LIMIT": (_ERROR, "An axis to be compensated has no s_limit (P-AXIS-00525)"),
+    "AXC-NOT-MODELLED": (_WARNING, "The controller has this function, the model has not"),
+}
+"""Every code a finding can have: its severity and what it means. Numbers are the vendor's, ``AXC-…`` are our own."""
+
+LIMIT = 10
+"""Findings of one code for one parameter of one file that are given one by one; the others are counted."""
+
+_INDEX = re.compile(r"\[[^\]]*\]")
+
+
+class Findings:
+    """Collects findings; of the same fault in many rows of a table only the first ``LIMIT`` are kept one by one."""
+
+    def __init__(self) -> None:
+        self._findings: list[Finding] = []
+        self._counts: dict[tuple[str, str, str], int] = {}
+
+    def add(self, code: str, file: str, line: int, parameter: str, message: str, group: str | None = None) -> None:
+        """Note a finding. Those of one code, file and ``group`` (else the parameter without indices) are limited."""
+        key = (code, file, _INDEX.sub("[]", parameter) if group is None else group)
+        count = self._counts.get(key, 0) + 1
+        self._counts[key] = count
+        if count <= LIMIT:
+            self._findings.append(Finding(CODES[code][0], file, line, parameter, code, message))
+
+    def errors(self) -> int:
+        """Return how many findings of severity error have been noted so far."""
+        return sum(count for (code, _, _), count in self._counts.items() if CODES[code][0] is Severity.ERROR)
+
+    def all(self) -> tuple[Finding, ...]:
+        """Return what was noted, file by file in the order of the lines, with a count of what was left out."""
+        more = [
+            Finding(CODES[code][0], file, 0, group, code, f"{CODES[code][1]}: {count - LIMIT:,} more like this.")
+            for (code, file, group), count in self._counts.items()
+            if count > LIMIT
+        ]
+        files = list(dict.fromkeys(finding.file for finding in self._findings))
+        place = {file: index for index, file in enumerate(files)}
+        # What concerns a file as a whole comes before its lines, except the counts: they close its list.
+        found = sorted(self._findings, key=lambda finding: (place[finding.file], finding.line))
+        return tuple(sorted([*found, *more], key=lambda finding: place[finding.file]))

@@ -1,0 +1,156 @@
+"""Parameters of the start-up list and of the axis list, as far as they concern compensations."""
+
+from __future__ import annotations
+
+from .parameter import DataType, Manual, Parameter, Quantity
+
+
+def _start_up(number: str) -> dict[Manual, str]:
+    return {Manual.START_UP: f"P-STUP-{number}"}
+
+
+def _axis(number: str) -> dict[Manual, str]:
+    return {Manual.AXIS: f"P-AXIS-{number}"}
+
+
+START_UP = (
+    Parameter("zahl_kw", "Number of compensation value lists", DataType.UNS16, 0, _start_up("00016"), range="[0, 32]"),
+    Parameter(
+        "achs_kw[i]", "File name of a compensation list", DataType.STRING, "", _start_up("00017"), index_max=(31,)
+    ),
+    Parameter(
+        "achs_kw_log_ax_nr[i]",
+        "Logical axis number of a compensation list; 0: the list's own counts",
+        DataType.UNS16,
+        0,
+        _start_up("00036"),
+        range="[0, MAX)",
+        index_max=(31,),
+    ),
+    Parameter(
+        "default_achs_mds",
+        "File name of the axis list read first, for all axes",
+        DataType.STRING,
+        "",
+        _start_up("00035"),
+    ),
+    Parameter("zahl_mds", "Number of axis lists", DataType.UNS16, 0, {}, range="[0, 32]"),
+    Parameter("achs_mds[i]", "File name of an axis list", DataType.STRING, "", {}, index_max=(31,)),
+    Parameter(
+        "vol_comp[i].max_records",
+        "Records reserved for a volumetric compensation",
+        DataType.UNS32,
+        0,
+        _start_up("00100"),
+        index_max=(4,),
+    ),
+    Parameter(
+        "vol_comp[i].file_name",
+        "File name of a volumetric list",
+        DataType.STRING,
+        "",
+        _start_up("00101"),
+        index_max=(4,),
+    ),
+)
+"""``hochlauf.lis``. ``zahl_mds`` and ``achs_mds`` are ours, in the shape of ``zahl_kw`` and ``achs_kw``."""
+
+AXIS = (
+    Parameter(
+        "kopf.achs_nr",
+        "Logical axis number",
+        DataType.UNS16,
+        0,
+        _axis("00016"),
+        range="(0, MAX)",
+        aliases=("kopf.log_achs_nr",),
+    ),
+    Parameter("kopf.log_achs_name", "Axis name", DataType.STRING, "", {Manual.AXIS: ""}, length=16),
+    Parameter(
+        "kenngr.achs_typ",
+        "Axis type: 1 translatory, 2 rotary, 4 spindle",
+        DataType.UNS16,
+        1,
+        _axis("00018"),
+        values=(1, 2, 4),
+        names={"ACHSTYP_TRANSLATOR": 1, "ACHSTYP_ROTATOR": 2, "ACHSTYP_SPINDEL": 4},
+    ),
+    Parameter(
+        "kenngr.achs_mode",
+        "Operating mode; bit 0x4: modulo",
+        DataType.UNS32,
+        1,
+        _axis("00015"),
+        names={"ACHSMODE_LINEAR": 0x1, "ACHSMODE_MODULO": 0x4},
+    ),
+    Parameter("kenngr.gantry_ax_nr", "Logical number of the gantry master", DataType.UNS16, 0, _axis("00070")),
+    Parameter("lr_param.crosscomp", "Activates the cross compensation", DataType.BOOLEAN, 0, _axis("00047")),
+    Parameter("lr_param.crosscomp2", "Activates the plane compensation", DataType.BOOLEAN, 0, _axis("00174")),
+    Parameter("lr_param.ssfk", "Activates the leadscrew compensation", DataType.BOOLEAN, 0, _axis("00175")),
+    Parameter("lr_param.frict_comp", "Activates the friction compensation", DataType.BOOLEAN, 0, _axis("00522")),
+    Parameter("lr_param.crosstalk", "Activates the crosstalk compensation", DataType.BOOLEAN, 0, _axis("00789")),
+    Parameter(
+        "lr_param.n_backlash_cyc",
+        "Cycles over which the leadscrew compensation changes direction",
+        DataType.UNS16,
+        0,
+        _axis("00243"),
+        Quantity.CYCLES,
+        "[0, 20]",
+    ),
+    Parameter(
+        "lr_param.vol_comp.s_limit",
+        "Largest volumetric correction; 0: not defined",
+        DataType.UNS32,
+        0,
+        _axis("00525"),
+        Quantity.POSITION,
+    ),
+    Parameter(
+        "lr_param.vol_comp.v_limit",
+        "Largest velocity of a volumetric correction; 0: not defined",
+        DataType.UNS32,
+        0,
+        _axis("00526"),
+        Quantity.VELOCITY,
+    ),
+    Parameter(
+        "getriebe[i].wegaufn",
+        "Path resolution, 0.1 µm or 0.0001°",
+        DataType.UNS32,
+        1,
+        _axis("00233"),
+        range="[1, MAX]",
+        index_max=(15,),
+        code="110086",
+    ),
+    Parameter(
+        "getriebe[i].wegaufz",
+        "Path resolution, increments",
+        DataType.UNS32,
+        1,
+        _axis("00234"),
+        range="[1, MAX]",
+        index_max=(15,),
+        code="110386",
+    ),
+    Parameter(
+        "getriebe[i].modulou",
+        "Lower end of the modulo range",
+        DataType.SGN32,
+        0,
+        _axis("00127"),
+        Quantity.POSITION,
+        index_max=(15,),
+    ),
+    Parameter(
+        "getriebe[i].moduloo",
+        "Upper end of the modulo range",
+        DataType.SGN32,
+        3_600_000,
+        _axis("00126"),
+        Quantity.POSITION,
+        index_max=(15,),
+    ),
+)
+"""``achsmd*.lis``; of the gear steps only the first one is used."""

@@ -1,0 +1,163 @@
+"""Grammar of the ASCII lists: bytes to text, text to entries, words to numbers and strings.
+
+An entry is ``name value [comment]`` on a line of its own. What ends a value depends on its type: a number ends at the
+first blank, a string only at ``(``. So an entry carries both its first word and the whole text behind the name.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from decimal import Decimal
+from typing import NamedTuple
+
+QUOTES = '"“”″\x93\x94'
+"""Characters that open and close a string; the last two are what Windows' own “ and ” become in Latin-1."""
+
+_NAME_END = rf"(?:\s+|(?=[{QUOTES}])|$)"
+_ENTRY = re.compile(
+    r"\s*([^\W0-9][\w.]*)"  # name up to its indices
+    r"(?:\[\s*([0-9]{1,9})\s*\](?:\[\s*([0-9]{1,9})\s*\])?([\w.]*))?"  # at most two indices, and what follows them
+    rf"{_NAME_END}(\S*)(.*)"
+)
+_ANY_NAME = re.compile(rf"\s*([^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*){_NAME_END}(.*)")
+_INDEX = re.compile(r"\[([0-9\s]*)\]")
+_ELISION = re.compile(r"\s*(?:\.{2,}|…|:+)\s*$")
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?\Z")
+_HEXADECIMAL = re.compile(r"0[xX]([0-9a-fA-F]{1,16})\Z")
+_CONTROLS = bytes({*range(32)} - set(b"\t\n\v\f\r\x1a"))
+_NUMBER_LENGTH = 400
+
+Report = Callable[[str, int, str], None]
+"""Takes the code, the line and the text of a line that is no entry."""
+
+
+class Entry(NamedTuple):
+    """One entry of a list.
+
+    Attributes
+    ----------
+    key : str
+        Name as it is written, indices left empty: ``kw.ssfk.table[].pos``.
+    indices : tuple of int
+        The indices in their order.
+    word : str
+        Value up to the first blank: all there is to a number.
+    text : str
+        Everything after the name, comment included.
+    line : int
+        Counted from 1.
+    """
+
+    key: str
+    indices: tuple[int, ...]
+    word: str
+    text: str
+    line: int
+
+    @property
+    def name(self) -> str:
+        """Name with its indices."""
+        return with_indices(self.key, self.indices)
+
+
+def with_indices(key: str, indices: tuple[int, ...]) -> str:
+    """Return a name whose empty indices are filled in."""
+    for index in indices:
+        key = key.replace("[]", f"[{index}]", 1)
+    return key
+
+
+def decode(data: bytes) -> str | None:
+    r"""Return the text of a file (UTF-8, else Latin-1) with ``\n`` between lines; None if it is no text."""
+    controls = len(data) - len(data.translate(None, _CONTROLS))
+    if b"\0" in data or controls > len(data) // 20:
+        return None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n").replace("\x1a", "")
+
+
+def entries(text: str, report: Report) -> Iterator[Entry]:
+    """Yield the entries of a list up to its ``End``; ``report`` gets the lines that are none."""
+    match = _ENTRY.match
+    lines = text.split("\n")
+    for number, line in enumerate(lines, 1):
+        found = match(line)
+        if found is None:
+            if odd := _odd(line, number, report):
+                yield odd
+            continue
+        name, first, second, rest, word, more = found.groups()
+        if first is None:
+            if not word and name.lower() == "end":
+                _report_after_end(lines, number, report)
+                return
+            yield Entry(name, (), word, word + more, number)
+        elif second is None:
+            yield Entry(f"{name}[]{rest}", (int(first),), word, word + more, number)
+        else:
+            yield Entry(f"{name}[][]{rest}", (int(first), int(second)), word, word + more, number)
+
+
+def _odd(line: str, number: int, report: Report) -> Entry | None:
+    """Sort out a line the quick expression does not take: an entry with many indices, or a report."""
+    stripped = line.strip()
+    if not stripped or stripped.startswith("#"):
+        return None
+    found = _ANY_NAME.match(line)
+    if found is not None:
+        digits = [index.strip() for index in _INDEX.findall(found[1])]
+        if all(index.isdigit() and len(index) < 10 for index in digits):
+            text = found[2]
+            word = text.split(None, 1)[0] if text.strip() else ""
+            return Entry(_INDEX.sub("[]", found[1]), tuple(map(int, digits)), word, text, number)
+    report("AXC-ELISION" if _ELISION.match(line) else "AXC-SYNTAX", number, stripped)
+    return None
+
+
+def _report_after_end(lines: list[str], end: int, report: Report) -> None:
+    for number, line in enumerate(lines[end:], end + 1):
+        if line.strip():
+            report("AXC-END", number, line.strip())
+            return
+
+
+def number(word: str) -> int | Decimal | None:
+    """Return a number exactly as it is written, None if the word is none. Hexadecimal integers are taken too."""
+    if len(word) <= _NUMBER_LENGTH:
+        if _NUMBER.match(word):
+            value = Decimal(word)
+            # An exponent can make any number of digits: only numbers of a sensible size become an int.
+            return int(value) if value == value.to_integral_value() and abs(value) < 10**30 else value
+        if found := _HEXADECIMAL.match(word):
+            return int(found[1], 16)
+    return None
+
+
+class String(NamedTuple):
+    """A string value: its text, whether it was quoted, what follows it, and a fault ("" if there is none)."""
+
+    value: str
+    quoted: bool
+    comment: str
+    fault: str
+
+
+def string(text: str) -> String:
+    """Return the string an entry's text begins with; only ``(`` opens a comment after it."""
+    text = text.strip()
+    if not text or text[0] not in QUOTES:
+        value, bracket, comment = text.partition("(")
+        value = value.strip()
+        special = any(character.isspace() for character in value) or "#" in value or "/*" in value
+        fault = "blanks, # and /* stand in quotes only, and only ( opens a comment after a string" if special else ""
+        return String(value, False, bracket + comment, fault)
+    end = next((place for place, character in enumerate(text) if place and character in QUOTES), None)
+    if end is None:
+        return String(text[1:].strip(), True, "", "the closing quote is missing")
+    comment = text[end + 1 :].strip()
+    fault = "only ( opens a comment after a string" if comment and not comment.startswith("(") else ""
+    return String(text[1:end].rstrip(), True, comment, fault)
