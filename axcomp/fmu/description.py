@@ -1,0 +1,155 @@
+"""modelDescription.xml of FMI 2.0 for co-simulation, from a list of variables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+from .variable import Value, Variable, with_causality
+
+MILLI = 1e-3
+DEGREE = math.pi / 180.0
+
+UNITS: dict[str, dict[str, float]] = {
+    "s": {"s": 1},
+    "mm": {"m": 1, "factor": MILLI},
+    "mm/s": {"m": 1, "s": -1, "factor": MILLI},
+    "mm/s2": {"m": 1, "s": -2, "factor": MILLI},
+    "deg": {"rad": 1, "factor": DEGREE},
+    "deg/s": {"rad": 1, "s": -1, "factor": DEGREE},
+    "deg/s2": {"rad": 1, "s": -2, "factor": DEGREE},
+    "mA": {"A": 1, "factor": MILLI},
+}
+"""Units of variables: exponents of the SI base units, and the factor to them."""
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "A list was not taken as it is written, or an unusual call",
+    "logStatusError": "Something does not act, or a call could not be carried out",
+    "logAll": "Everything else",
+}
+
+
+STEPS = 1000
+"""Steps of the default experiment: FMPy doubles the step size until there are no more than these."""
+
+
+@dataclass(frozen=True)
+class Description:
+    """What an FMU says about itself, apart from its variables.
+
+    Attributes
+    ----------
+    name : str
+        Name of the model, and identifier of its binaries.
+    text : str
+        One sentence about it.
+    step_size : float
+        Recommended communication step, s.
+    version : str
+        Version of the software it comes from.
+    naming : str
+        ``structured`` or ``flat``.
+    generated : str
+        Date and time of generation, ISO 8601 ending in ``Z``.
+    capabilities : mapping of str to bool
+        Further attributes of ``CoSimulation``.
+    """
+
+    name: str
+    text: str
+    step_size: float
+    version: str
+    naming: str = "structured"
+    generated: str = "2000-01-01T00:00:00Z"
+    capabilities: Mapping[str, bool] = field(default_factory=dict)
+
+
+CAPABILITIES = {
+    "canHandleVariableCommunicationStepSize": True,
+    "canGetAndSetFMUstate": True,
+    "canSerializeFMUstate": True,
+    "canNotUseMemoryManagementFunctions": True,
+}
+
+
+def model_description(description: Description, variables: Sequence[Variable], guid: str) -> bytes:
+    """Return modelDescription.xml, the same bytes for the same arguments."""
+    root = Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=description.name,
+        guid=guid,
+        description=description.text,
+        version=description.version,
+        generationTool=f"axcomp {description.version}",
+        generationDateAndTime=description.generated,
+        variableNamingConvention=description.naming,
+    )
+    capabilities = {name: _text(value) for name, value in {**CAPABILITIES, **description.capabilities}.items()}
+    SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
+    _add_units(root, variables)
+    categories = SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=text)
+    stop_time = STEPS * description.step_size
+    SubElement(
+        root, "DefaultExperiment", startTime="0.0", stopTime=_text(stop_time), stepSize=_text(description.step_size)
+    )
+    _add_variables(root, variables)
+    _add_structure(root, variables)
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
+
+
+def _add_units(root: Element, variables: Sequence[Variable]) -> None:
+    used = {variable.unit for variable in variables}
+    definitions = SubElement(root, "UnitDefinitions")
+    for name, base in UNITS.items():
+        if name in used:
+            unit = SubElement(definitions, "Unit", name=name)
+            SubElement(unit, "BaseUnit", {key: _text(value) for key, value in base.items()})
+
+
+def _add_variables(root: Element, variables: Sequence[Variable]) -> None:
+    parent = SubElement(root, "ModelVariables")
+    for variable in variables:
+        output = variable.causality == "output"
+        node = SubElement(
+            parent,
+            "ScalarVariable",
+            name=variable.name,
+            valueReference=str(variable.reference),
+            description=variable.description,
+            causality=variable.causality,
+            variability=variable.variability,
+        )
+        if variable.causality != "input":
+            node.set("initial", "calculated" if output else "exact")
+        kind = SubElement(node, variable.type)
+        if variable.unit:
+            kind.set("unit", variable.unit)
+        if not output:
+            kind.set("start", _text(variable.start))
+
+
+def _add_structure(root: Element, variables: Sequence[Variable]) -> None:
+    """Add the outputs with their dependencies; all of them are computed at the end of initialization too."""
+    index = {variable.name: str(number) for number, variable in enumerate(variables, start=1)}
+    structure = SubElement(root, "ModelStructure")
+    for section in ("Outputs", "InitialUnknowns"):
+        outputs = with_causality(variables, "output")
+        if not outputs:
+            continue
+        parent = SubElement(structure, section)
+        for variable in outputs:
+            needed = " ".join(index[name] for name in variable.depends_on)
+            SubElement(parent, "Unknown", index=index[variable.name], dependencies=needed)
+
+
+def _text(value: Value) -> str:
+    """Write a value so that reading it gives the same one."""
+    return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else repr(value)

@@ -1,0 +1,242 @@
+"""The one list of the FMU's variables: each is declared once, and a machine says which of them there are.
+
+A value reference is ``BLOCK * block + identifier``. Block 0 holds the variables of the whole machine, block 1 + i those
+of axis i; an identifier never changes its meaning, so a reference means the same in every machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+from ..compile import CYCLE_TIME
+from ..kernel.records import Inputs, Outputs
+from ..machine import KINDS, Axis, Machine
+from .dependencies import Dependencies, Input
+from .variable import BLOCK, Causality, Value, Variability, Variable
+
+Naming = Literal["structured", "flat"]
+"""``X.leadscrew.correction`` or ``X_leadscrew_correction``."""
+
+MACHINE_BLOCK = 0
+AXIS_BLOCK = 1  # … 32; the next blocks are free
+
+POSITION, VELOCITY, ACCELERATION = "{}", "{}/s", "{}/s2"
+"""Units of an axis' quantities; {} stands for mm or deg."""
+
+
+class Declaration(NamedTuple):
+    """A variable of the machine or of every axis.
+
+    ``kind``: it appears only where this compensation is configured; "": always. ``variability``: where it is not the
+    usual one of its type.
+    """
+
+    identifier: int
+    name: str
+    causality: Causality
+    start: Value
+    description: str
+    unit: str = ""
+    kind: str = ""
+    variability: Variability | None = None
+
+    @property
+    def field(self) -> str:
+        """Name of its field in the kernel's records or in ``Controls``."""
+        return self.name.replace(".", "_")
+
+
+@dataclass(slots=True)
+class Controls:
+    """The variables that the kernel does not know."""
+
+    cycle_time: float = CYCLE_TIME
+    reload: bool = False
+    update_path: str = ""
+
+
+OF_MACHINE = (
+    Declaration(0, "reset", "input", False, "Reset: manual compensations off, errors cleared"),
+    Declaration(1, "program_end", "input", False, "End of the NC program: manual compensations off"),
+    Declaration(2, "reload", "input", False, "A rising edge reads the lists in update_path again"),
+    Declaration(
+        3,
+        "update_path",
+        "parameter",
+        "",
+        "Start-up list, its folder or a single list, read at reload; empty: the lists in resources",
+        variability="tunable",
+    ),
+    Declaration(
+        4, "cycle_time", "parameter", CYCLE_TIME, "Cycle time of the position controller", "s", variability="fixed"
+    ),
+)
+
+OF_AXIS = (
+    Declaration(0, "setpoint", "input", 0.0, "Setpoint position before all compensations", POSITION),
+    Declaration(1, "velocity", "input", 0.0, "Setpoint velocity", VELOCITY),
+    Declaration(2, "acceleration", "input", 0.0, "Setpoint acceleration", ACCELERATION),
+    Declaration(3, "actual_position", "input", 0.0, "Measured position", POSITION),
+    Declaration(4, "referenced", "input", True, "The axis has its reference"),
+    Declaration(5, "fault", "input", False, "The axis is in error"),
+    Declaration(6, "no_move", "input", False, "What is switched now moves no axis: its value becomes setpoint_shift"),
+    Declaration(8, "corrected_setpoint", "output", 0.0, "Setpoint with all corrections, for the drive", POSITION),
+    Declaration(9, "display_position", "output", 0.0, "Measured position without the corrections", POSITION),
+    Declaration(10, "correction", "output", 0.0, "Sum of all corrections of the setpoint", POSITION),
+    Declaration(11, "setpoint_shift", "output", 0.0, "Offset that keeps the setpoint continuous (no_move)", POSITION),
+    Declaration(12, "error", "output", 0, "0, or the number of an error that stays until reset"),
+    Declaration(13, "current", "output", 0.0, "Additional motor current, in the drive's own unit", kind="friction"),
+)
+
+KIND_IDENTIFIERS = {"cross": 16, "plane": 20, "crosstalk": 24, "leadscrew": 28, "friction": 32}
+"""First of the four identifiers of each kind: enable, active, correction, and one to spare."""
+
+
+def _of_kinds() -> Iterator[Declaration]:
+    for kind in KINDS:
+        first = KIND_IDENTIFIERS[kind]
+        called = f"{kind} compensation"
+        yield Declaration(first, f"{kind}.enable", "input", True, f"Command of the {called}: on or off", kind=kind)
+        yield Declaration(first + 1, f"{kind}.active", "output", False, f"The {called} acts at least partly", kind=kind)
+        if kind != "friction":
+            text = f"Correction of the setpoint by the {called}"
+            yield Declaration(first + 2, f"{kind}.correction", "output", 0.0, text, POSITION, kind)
+
+
+AXIS_DECLARATIONS = (*OF_AXIS, *_of_kinds())
+
+
+def variables_of(
+    machine: Machine, naming: Naming = "structured", cycle_time: float = CYCLE_TIME
+) -> tuple[Variable, ...]:
+    """Return the variables of a machine's FMU: those of the machine, then axis by axis.
+
+    Parameters
+    ----------
+    machine : Machine
+        Every master must be one of its axes.
+    naming : str
+        ``structured`` (``X.leadscrew.correction``) or ``flat`` (``X_leadscrew_correction``).
+    cycle_time : float
+        Start value of the parameter of that name, s.
+    """
+    starts: dict[str, Value] = {"cycle_time": cycle_time}
+    every_axis = list(enumerate(zip(machine.axes, _prefixes(machine, naming), strict=True)))
+    inputs: dict[Input, str] = {(None, d.name): d.name for d in OF_MACHINE if d.causality == "input"}
+    inputs.update(
+        ((index, d.name), _name(prefix, d, naming))
+        for index, (axis, prefix) in every_axis
+        for d in _present(axis)
+        if d.causality == "input"
+    )
+    variables = [_variable(d, d.name, MACHINE_BLOCK, starts.get(d.name, d.start)) for d in OF_MACHINE]
+    for index, (axis, prefix) in every_axis:
+        dependencies = Dependencies(machine, index)
+        for d in _present(axis):
+            needed = dependencies.of(d.name) if d.causality == "output" else frozenset()
+            variables.append(
+                _variable(
+                    d,
+                    _name(prefix, d, naming),
+                    AXIS_BLOCK + index,
+                    _start(d, axis),
+                    d.unit.format(axis.unit),
+                    tuple(name for key, name in inputs.items() if key in needed),
+                    index,
+                )
+            )
+    return tuple(variables)
+
+
+def record_of(declared: Declaration | Variable, axis: int | None, *records: Inputs | Outputs | Controls) -> Any:
+    """Return the record that holds the field of a variable; ``axis``: place of its axis, None: of no axis.
+
+    ``records`` are those to look in: ``Inputs`` and ``Outputs``, and ``Controls`` where there are some. None: in none.
+    """
+    for record in records:
+        if axis is None:
+            candidate: object = record
+        elif isinstance(record, Inputs if declared.causality == "input" else Outputs):
+            candidate = record.axis[axis]
+        else:
+            continue
+        if hasattr(candidate, declared.field):
+            return candidate
+    return None
+
+
+def every_place(axis_count: int, *records: Inputs | Outputs | Controls) -> Iterator[tuple[int, Declaration, Any]]:
+    """Yield reference, declaration and record of every variable that ``axis_count`` axes can have."""
+    for declaration in OF_MACHINE:
+        yield BLOCK * MACHINE_BLOCK + declaration.identifier, declaration, record_of(declaration, None, *records)
+    for index in range(axis_count):
+        for declaration in AXIS_DECLARATIONS:
+            reference = BLOCK * (AXIS_BLOCK + index) + declaration.identifier
+            yield reference, declaration, record_of(declaration, index, *records)
+
+
+def _present(axis: Axis) -> Iterator[Declaration]:
+    kinds = {"", *(kind for kind, _ in axis.compensations())}
+    return (declaration for declaration in AXIS_DECLARATIONS if declaration.kind in kinds)
+
+
+def _start(declaration: Declaration, axis: Axis) -> Value:
+    """Return the start value: an enable input begins as the compensation activates without a command."""
+    if declaration.name.endswith(".enable"):
+        return not getattr(getattr(axis, declaration.kind), "manual_activation", False)
+    return declaration.start
+
+
+def _variable(
+    declaration: Declaration,
+    name: str,
+    block: int,
+    start: Value,
+    unit: str | None = None,
+    depends_on: tuple[str, ...] = (),
+    axis: int | None = None,
+) -> Variable:
+    return Variable(
+        name,
+        BLOCK * block + declaration.identifier,
+        declaration.causality,
+        start,
+        declaration.description,
+        declaration.unit if unit is None else unit,
+        declaration.variability or ("continuous" if isinstance(start, float) else "discrete"),
+        depends_on,
+        axis,
+        declaration.field,
+    )
+
+
+def _name(prefix: str, declaration: Declaration, naming: Naming) -> str:
+    return f"{prefix}.{declaration.name}" if naming == "structured" else f"{prefix}_{declaration.field}"
+
+
+def _prefixes(machine: Machine, naming: Naming) -> list[str]:
+    """Return the axes' names as identifiers, so that no two variables get the same name."""
+    prefixes: list[str] = []
+    taken = {declaration.name for declaration in OF_MACHINE}
+    for axis in machine.axes:
+        wanted = identifier(axis.name) or f"axis{axis.number}"
+        prefix, count = wanted, 1
+        while taken & (names := {prefix, *(_name(prefix, d, naming) for d in AXIS_DECLARATIONS)}):
+            count += 1
+            prefix = f"{wanted}_{count}"
+        prefixes.append(prefix)
+        taken |= names
+    return prefixes
+
+
+def identifier(name: str) -> str:
+    """Return an axis name with ``_`` for what an identifier of FMI cannot hold; "" stays."""
+    letters = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)
+    return f"_{letters}" if letters[:1].isdigit() else letters
+
+
+def by_name(variables: Iterable[Variable]) -> dict[str, Variable]:
+    """Return the variables by their names."""
+    return {variable.name: variable for variable in variables}
