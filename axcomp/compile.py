@@ -103,16 +103,16 @@ class _AxisCompiler:
         if axis.friction is not None:
             self._friction(axis.friction, table.friction)
         # A shift of the leadscrew has no n_cycles: it is released as softly as the axis changes direction.
-        switched = (table.cross.switch, table.plane.switch, table.crosstalk.switch)
+        switched = (table.cross.switching, table.plane.switching, table.crosstalk.switching)
         table.shift_cycles = max(1, axis.backlash_cycles, *(switch.cycles for switch in switched))
 
     def _cross(self, cross: Cross, table: CrossTable) -> None:
-        self._switch(table.switch, cross.manual_activation, cross.n_cycles, at_standstill=True)
+        self._switch(table.switching, cross.manual_activation, cross.n_cycles, at_standstill=True)
         table.master = self._index(cross.master)
         self._curve(table.curve, "cross", cross.positions, cross.corrections)
 
     def _plane(self, plane: Plane, table: PlaneTable) -> None:
-        self._switch(table.switch, plane.manual_activation, plane.n_cycles, at_standstill=True)
+        self._switch(table.switching, plane.manual_activation, plane.n_cycles, at_standstill=True)
         table.master1 = self._index(plane.master1)
         table.master2 = self._index(plane.master2)
         table.start1, table.start2 = plane.start1, plane.start2
@@ -125,14 +125,14 @@ class _AxisCompiler:
         table.values = self._append([value for row in plane.corrections for value in row])
 
     def _crosstalk_curve(self, crosstalk: CrosstalkCurve, table: CrosstalkTable) -> None:
-        self._switch(table.switch, crosstalk.manual_activation, crosstalk.n_cycles, at_standstill=True)
+        self._switch(table.switching, crosstalk.manual_activation, crosstalk.n_cycles, at_standstill=True)
         table.variant = CROSSTALK_CURVE
         table.master = self._index(crosstalk.master)
         table.acceleration, table.deceleration = 1.0, -1.0
         self._curve(table.curve, "crosstalk", crosstalk.accelerations, crosstalk.corrections)
 
     def _crosstalk(self, crosstalk: Crosstalk, table: CrosstalkTable) -> None:
-        self._switch(table.switch, crosstalk.manual_activation, crosstalk.n_cycles, at_standstill=True)
+        self._switch(table.switching, crosstalk.manual_activation, crosstalk.n_cycles, at_standstill=True)
         table.master = self._index(crosstalk.master)
         self._require(
             crosstalk.acceleration > 0.0 > crosstalk.deceleration, "crosstalk: acceleration > 0 > deceleration"
@@ -189,7 +189,7 @@ class _AxisCompiler:
         self._append([test.decelerate_negative for test in tests])
 
     def _leadscrew(self, leadscrew: Leadscrew, table: LeadscrewTable) -> None:
-        self._switch(table.switch, leadscrew.manual_activation, 0, at_standstill=False)
+        self._switch(table.switching, leadscrew.manual_activation, 0, at_standstill=False)
         positions, positive, negative = leadscrew.positions, leadscrew.positive, leadscrew.negative
         table.bilateral = negative is not None
         table.without_other = leadscrew.without_other_compensations
@@ -208,7 +208,7 @@ class _AxisCompiler:
             self._curve(table.negative, "leadscrew", positions, negative, x_at=table.positive.x)
 
     def _friction(self, friction: Friction, table: FrictionTable) -> None:
-        self._switch(table.switch, False, 0, at_standstill=False)
+        self._switch(table.switching, False, 0, at_standstill=False)
         self._curve(table.curve, "friction", friction.velocities, friction.currents)
         self._require(friction.velocities[0] >= 0.0, "friction: velocities are not negative")
         self._require(friction.position_delay >= 0.0, "friction: the position delay is not negative")

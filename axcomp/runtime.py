@@ -36,7 +36,7 @@ def initial_inputs(tables: Tables) -> Inputs:
     for table, axis in zip(tables.axis, inputs.axis, strict=False):
         axis.referenced = True
         for kind in KINDS:
-            switch = getattr(table, kind).switch
+            switch = getattr(table, kind).switching
             setattr(axis, f"{kind}_enable", switch.configured and not switch.manual)
     return inputs
 

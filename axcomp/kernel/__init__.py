@@ -3,3 +3,6 @@
 Numbers are double and int32, tables lie in one pool of doubles, and nothing is allocated or raised: two runs, in any
 language and on any machine, give the same bits. ``record`` is the only module that C does not see.
 """
+
+EXPORTS = ("cycle", "adopt")
+"""The functions that C calls by name; the translation has them and what they call."""

@@ -8,31 +8,31 @@ from __future__ import annotations
 
 from .crosstalk import CROSSTALK_GRID, CROSSTALK_LINE
 from .records import AxisInputs, AxisState, AxisTable, Inputs, SwitchState, SwitchTable
-from .switching import begin_switch, switch
+from .switching import advance_switch, begin_switch
 
 
 def activate(table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs) -> None:
     """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them."""
     released = inputs.reset or inputs.program_end or not given.referenced
-    if table.cross.switch.configured:
+    if table.cross.switching.configured:
         ready = inputs.axis[table.cross.master].referenced
-        advance(table.cross.switch, axis.cross.switch, axis, given, given.cross_enable, ready, released)
-    if table.plane.switch.configured:
+        advance(table.cross.switching, axis.cross.switching, axis, given, given.cross_enable, ready, released)
+    if table.plane.switching.configured:
         ready = inputs.axis[table.plane.master1].referenced and inputs.axis[table.plane.master2].referenced
         ready = ready and given.referenced
-        advance(table.plane.switch, axis.plane.switch, axis, given, given.plane_enable, ready, released)
-    if table.crosstalk.switch.configured:
+        advance(table.plane.switching, axis.plane.switching, axis, given, given.plane_enable, ready, released)
+    if table.crosstalk.switching.configured:
         ready = True
         if table.crosstalk.variant >= CROSSTALK_LINE:
             ready = inputs.axis[table.crosstalk.adaptation1].referenced
         if table.crosstalk.variant >= CROSSTALK_GRID:
             ready = ready and inputs.axis[table.crosstalk.adaptation2].referenced
-        advance(table.crosstalk.switch, axis.crosstalk.switch, axis, given, given.crosstalk_enable, ready, released)
-    if table.leadscrew.switch.configured:
+        advance(table.crosstalk.switching, axis.crosstalk.switching, axis, given, given.crosstalk_enable, ready, released)
+    if table.leadscrew.switching.configured:
         ready = given.referenced
-        advance(table.leadscrew.switch, axis.leadscrew.switch, axis, given, given.leadscrew_enable, ready, released)
-    if table.friction.switch.configured:
-        advance(table.friction.switch, axis.friction.switch, axis, given, given.friction_enable, True, released)
+        advance(table.leadscrew.switching, axis.leadscrew.switching, axis, given, given.leadscrew_enable, ready, released)
+    if table.friction.switching.configured:
+        advance(table.friction.switching, axis.friction.switching, axis, given, given.friction_enable, True, released)
 
 
 def advance(
@@ -46,6 +46,6 @@ def advance(
 ) -> None:
     """Advance one switch by one cycle, or set it in the first."""
     if axis.started:
-        switch(table, state, enable, ready, released, axis.moving, given.no_move)
+        advance_switch(table, state, enable, ready, released, axis.moving, given.no_move)
     else:
         begin_switch(table, state, enable, ready, released)

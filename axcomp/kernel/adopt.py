@@ -6,27 +6,27 @@ from .records import AxisOutputs, AxisState, AxisTable, Lookup, Outputs, State, 
 from .switching import ramp
 
 
-def adopt(old: Tables, new: Tables, state: State, outputs: Outputs) -> None:
+def adopt(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:
     """Make the state fit the new tables; both have the same axes."""
-    for i in range(new.axis_count):
-        adopt_axis(old.axis[i], new.axis[i], state.axis[i], outputs.axis[i])
+    for i in range(after.axis_count):
+        adopt_axis(before.axis[i], after.axis[i], state.axis[i], outputs.axis[i])
 
 
-def adopt_axis(old: AxisTable, new: AxisTable, axis: AxisState, out: AxisOutputs) -> None:
+def adopt_axis(before: AxisTable, after: AxisTable, axis: AxisState, out: AxisOutputs) -> None:
     """Make the state of one axis fit its new tables; outputs that no longer exist become 0."""
-    adopt_switch(old.cross.switch, new.cross.switch, axis.cross.switch)
-    adopt_switch(old.plane.switch, new.plane.switch, axis.plane.switch)
-    adopt_switch(old.crosstalk.switch, new.crosstalk.switch, axis.crosstalk.switch)
-    adopt_switch(old.leadscrew.switch, new.leadscrew.switch, axis.leadscrew.switch)
-    adopt_switch(old.friction.switch, new.friction.switch, axis.friction.switch)
+    adopt_switch(before.cross.switching, after.cross.switching, axis.cross.switching)
+    adopt_switch(before.plane.switching, after.plane.switching, axis.plane.switching)
+    adopt_switch(before.crosstalk.switching, after.crosstalk.switching, axis.crosstalk.switching)
+    adopt_switch(before.leadscrew.switching, after.leadscrew.switching, axis.leadscrew.switching)
+    adopt_switch(before.friction.switching, after.friction.switching, axis.friction.switching)
     forget(axis.cross.lookup)
     forget(axis.crosstalk.lookup)
     forget(axis.crosstalk.lookup2)
     forget(axis.leadscrew.lookup)
     forget(axis.friction.lookup)
-    axis.leadscrew.reversal_step = 0 if axis.leadscrew.backward else new.leadscrew.reversal_cycles
-    axis.shift.step = min(axis.shift.step, new.shift_cycles)
-    axis.friction.since_reversal = min(axis.friction.since_reversal, new.friction.lookahead)
+    axis.leadscrew.reversal_step = 0 if axis.leadscrew.backward else after.leadscrew.reversal_cycles
+    axis.shift.step = min(axis.shift.step, after.shift_cycles)
+    axis.friction.since_reversal = min(axis.friction.since_reversal, after.friction.lookahead)
 
     out.cross_correction = 0.0
     out.plane_correction = 0.0
@@ -40,15 +40,15 @@ def adopt_axis(old: AxisTable, new: AxisTable, axis: AxisState, out: AxisOutputs
     out.friction_active = False
 
 
-def adopt_switch(old: SwitchTable, new: SwitchTable, state: SwitchState) -> None:
+def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) -> None:
     """Keep a switch where it stands between off and on."""
-    if not new.configured:
+    if not after.configured:
         state.step = 0
-    elif state.step >= old.cycles and state.step > 0:
-        state.step = new.cycles
+    elif state.step >= before.cycles and state.step > 0:
+        state.step = after.cycles
     else:
-        state.step = min(state.step, new.cycles)
-    state.weight = ramp(state.step, new.cycles)
+        state.step = min(state.step, after.cycles)
+    state.weight = ramp(state.step, after.cycles)
     state.absorbed = 0.0
 
 

@@ -61,14 +61,14 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
         axis.started = True
     release_shift(table, axis.shift, axis.moving)
 
-    if table.cross.switch.configured:
+    if table.cross.switching.configured:
         correct_by_cross(tables.pool, table, axis, state.axis[table.cross.master], out)
-    if table.plane.switch.configured:
+    if table.plane.switching.configured:
         correct_by_plane(tables.pool, table, axis, state, out)
-    if table.crosstalk.switch.configured:
+    if table.crosstalk.switching.configured:
         correct_by_crosstalk(tables.pool, table, axis, state, out)
     correction = out.cross_correction + out.plane_correction + out.crosstalk_correction
-    if table.leadscrew.switch.configured:
+    if table.leadscrew.switching.configured:
         position = axis.setpoint
         if not table.leadscrew.without_other:
             position += correction + axis.shift.before_leadscrew
@@ -79,16 +79,16 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
     out.setpoint_shift = axis.shift.before_leadscrew + axis.shift.leadscrew
     out.corrected_setpoint = axis.setpoint + (correction + out.setpoint_shift)
     out.display_position = given.actual_position - (correction + out.setpoint_shift)
-    if table.friction.switch.configured:
+    if table.friction.switching.configured:
         add_friction_current(tables, table, axis, out)
 
 
 def correct_by_cross(pool: Vec, table: AxisTable, axis: AxisState, master: AxisState, out: AxisOutputs) -> None:
     """Cross compensation of the slave ``axis``."""
     value = cross_value(pool, table.cross, axis.cross, master.setpoint)
-    out.cross_correction = axis.cross.switch.weight * value
-    out.cross_active = axis.cross.switch.step > 0
-    axis.shift.before_leadscrew -= axis.cross.switch.absorbed * value
+    out.cross_correction = axis.cross.switching.weight * value
+    out.cross_active = axis.cross.switching.step > 0
+    axis.shift.before_leadscrew -= axis.cross.switching.absorbed * value
 
 
 def correct_by_plane(pool: Vec, table: AxisTable, axis: AxisState, state: State, out: AxisOutputs) -> None:
@@ -96,9 +96,9 @@ def correct_by_plane(pool: Vec, table: AxisTable, axis: AxisState, state: State,
     master1 = state.axis[table.plane.master1].setpoint
     master2 = state.axis[table.plane.master2].setpoint
     value = plane_value(pool, table.plane, master1, master2)
-    out.plane_correction = axis.plane.switch.weight * value
-    out.plane_active = axis.plane.switch.step > 0
-    axis.shift.before_leadscrew -= axis.plane.switch.absorbed * value
+    out.plane_correction = axis.plane.switching.weight * value
+    out.plane_active = axis.plane.switching.step > 0
+    axis.shift.before_leadscrew -= axis.plane.switching.absorbed * value
 
 
 def correct_by_crosstalk(pool: Vec, table: AxisTable, axis: AxisState, state: State, out: AxisOutputs) -> None:
@@ -109,17 +109,17 @@ def correct_by_crosstalk(pool: Vec, table: AxisTable, axis: AxisState, state: St
     value = crosstalk_value(
         pool, table.crosstalk, axis.crosstalk, master.acceleration, master.velocity, position1, position2
     )
-    out.crosstalk_correction = axis.crosstalk.switch.weight * value
-    out.crosstalk_active = axis.crosstalk.switch.step > 0
-    axis.shift.before_leadscrew -= axis.crosstalk.switch.absorbed * value
+    out.crosstalk_correction = axis.crosstalk.switching.weight * value
+    out.crosstalk_active = axis.crosstalk.switching.step > 0
+    axis.shift.before_leadscrew -= axis.crosstalk.switching.absorbed * value
 
 
 def correct_by_leadscrew(pool: Vec, table: AxisTable, axis: AxisState, position: float, out: AxisOutputs) -> None:
     """Leadscrew error compensation at an input position."""
     value = leadscrew_value(pool, table.leadscrew, axis.leadscrew, position, table.modulo_range)
-    out.leadscrew_correction = axis.leadscrew.switch.weight * value
-    out.leadscrew_active = axis.leadscrew.switch.step > 0
-    axis.shift.leadscrew -= axis.leadscrew.switch.absorbed * value
+    out.leadscrew_correction = axis.leadscrew.switching.weight * value
+    out.leadscrew_active = axis.leadscrew.switching.step > 0
+    axis.shift.leadscrew -= axis.leadscrew.switching.absorbed * value
 
 
 def add_friction_current(tables: Tables, table: AxisTable, axis: AxisState, out: AxisOutputs) -> None:
@@ -134,5 +134,5 @@ def add_friction_current(tables: Tables, table: AxisTable, axis: AxisState, out:
         tables.cycle_time,
         table.modulo_range,
     )
-    out.current = axis.friction.switch.weight * current
-    out.friction_active = axis.friction.switch.step > 0
+    out.current = axis.friction.switching.weight * current
+    out.friction_active = axis.friction.switching.step > 0

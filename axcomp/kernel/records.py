@@ -59,7 +59,7 @@ class Lookup:
 class CrossTable:
     """Cross compensation (kw.crosscomp)."""
 
-    switch: SwitchTable
+    switching: SwitchTable
     master: int
     curve: Curve
 
@@ -68,7 +68,7 @@ class CrossTable:
 class CrossState:
     """What the cross compensation remembers."""
 
-    switch: SwitchState
+    switching: SwitchState
     lookup: Lookup
 
 
@@ -76,7 +76,7 @@ class CrossState:
 class PlaneTable:
     """Plane compensation (kw.crosscomp2); correction[j][i] at values + j * points1 + i."""
 
-    switch: SwitchTable
+    switching: SwitchTable
     master1: int
     master2: int
     start1: float
@@ -92,7 +92,7 @@ class PlaneTable:
 class PlaneState:
     """What the plane compensation remembers."""
 
-    switch: SwitchState
+    switching: SwitchState
 
 
 @dataclass(slots=True)
@@ -103,7 +103,7 @@ class CrosstalkTable:
     positive and negative motion. In the old variant ``curve`` is the correction over the signed acceleration.
     """
 
-    switch: SwitchTable
+    switching: SwitchTable
     variant: int  # one of the CROSSTALK_ constants
     master: int
     adaptation1: int
@@ -128,7 +128,7 @@ class CrosstalkTable:
 class CrosstalkState:
     """What the crosstalk compensation remembers."""
 
-    switch: SwitchState
+    switching: SwitchState
     lookup: Lookup
     lookup2: Lookup
     negative: bool  # the master's last motion was negative
@@ -139,7 +139,7 @@ class CrosstalkState:
 class LeadscrewTable:
     """Leadscrew error compensation (kw.ssfk); both directions share the interpolation points."""
 
-    switch: SwitchTable
+    switching: SwitchTable
     positive: Curve
     negative: Curve
     bilateral: bool
@@ -152,7 +152,7 @@ class LeadscrewTable:
 class LeadscrewState:
     """What the leadscrew compensation remembers."""
 
-    switch: SwitchState
+    switching: SwitchState
     lookup: Lookup
     position: float  # input in the last cycle
     backward: bool  # its last change was negative
@@ -163,7 +163,7 @@ class LeadscrewState:
 class FrictionTable:
     """Friction compensation (frict_comp)."""
 
-    switch: SwitchTable
+    switching: SwitchTable
     curve: Curve
     scaling: float
     position_delay: float
@@ -175,7 +175,7 @@ class FrictionTable:
 class FrictionState:
     """What the friction compensation remembers."""
 
-    switch: SwitchState
+    switching: SwitchState
     lookup: Lookup
     direction: int  # sign of the last velocity that was not 0
     reversal_position: float

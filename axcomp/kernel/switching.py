@@ -29,7 +29,7 @@ def begin_switch(table: SwitchTable, state: SwitchState, enable: bool, ready: bo
     state.absorbed = 0.0
 
 
-def switch(
+def advance_switch(
     table: SwitchTable,
     state: SwitchState,
     enable: bool,
