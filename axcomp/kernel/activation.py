@@ -1,19 +1,23 @@
 """Which compensations of an axis are on: the conditions of each kind, and the commands of its enable input.
 
 Leadscrew: the axis is referenced. Cross: its master is. Plane: both masters and the slave are. Crosstalk: the
-adaptation axes are. Friction acts whether referenced or not (semantics §5–§9).
+adaptation axes are. Friction acts whether referenced or not (semantics §5–§9). A manual compensation is released with
+its axis: it needs the axis' own reference too.
 """
 
 from __future__ import annotations
 
 from .crosstalk import CROSSTALK_GRID, CROSSTALK_LINE
 from .records import AxisInputs, AxisState, AxisTable, Inputs, SwitchState, SwitchTable
-from .switching import advance_switch, begin_switch
+from .switching import advance_switch, begin_switch, heed_command
 
 
 def activate(table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs) -> None:
-    """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them."""
-    released = inputs.reset or inputs.program_end or not given.referenced
+    """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
+
+    While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
+    """
+    released = inputs.reset or inputs.program_end
     if table.cross.switching.configured:
         ready = inputs.axis[table.cross.master].referenced
         advance(table.cross.switching, axis.cross.switching, axis, given, given.cross_enable, ready, released)
@@ -27,10 +31,14 @@ def activate(table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInput
             ready = inputs.axis[table.crosstalk.adaptation1].referenced
         if table.crosstalk.variant >= CROSSTALK_GRID:
             ready = ready and inputs.axis[table.crosstalk.adaptation2].referenced
-        advance(table.crosstalk.switching, axis.crosstalk.switching, axis, given, given.crosstalk_enable, ready, released)
+        advance(
+            table.crosstalk.switching, axis.crosstalk.switching, axis, given, given.crosstalk_enable, ready, released
+        )
     if table.leadscrew.switching.configured:
         ready = given.referenced
-        advance(table.leadscrew.switching, axis.leadscrew.switching, axis, given, given.leadscrew_enable, ready, released)
+        advance(
+            table.leadscrew.switching, axis.leadscrew.switching, axis, given, given.leadscrew_enable, ready, released
+        )
     if table.friction.switching.configured:
         advance(table.friction.switching, axis.friction.switching, axis, given, given.friction_enable, True, released)
 
@@ -45,7 +53,11 @@ def advance(
     released: bool,
 ) -> None:
     """Advance one switch by one cycle, or set it in the first."""
-    if axis.started:
-        advance_switch(table, state, enable, ready, released, axis.moving, given.no_move)
+    usable = ready and (given.referenced or not table.manual)
+    if not axis.started:
+        begin_switch(table, state, enable, usable, released)
+    elif axis.held:
+        heed_command(table, state, enable, usable, released, given.no_move)
     else:
-        begin_switch(table, state, enable, ready, released)
+        heed_command(table, state, enable, usable, released, given.no_move)
+        advance_switch(table, state, usable, axis.moving)

@@ -28,16 +28,21 @@ def adopt_axis(before: AxisTable, after: AxisTable, axis: AxisState, out: AxisOu
     axis.shift.step = min(axis.shift.step, after.shift_cycles)
     axis.friction.since_reversal = min(axis.friction.since_reversal, after.friction.lookahead)
 
-    out.cross_correction = 0.0
-    out.plane_correction = 0.0
-    out.crosstalk_correction = 0.0
-    out.leadscrew_correction = 0.0
-    out.current = 0.0
-    out.cross_active = False
-    out.plane_active = False
-    out.crosstalk_active = False
-    out.leadscrew_active = False
-    out.friction_active = False
+    if not after.cross.switching.configured:
+        out.cross_correction = 0.0
+        out.cross_active = False
+    if not after.plane.switching.configured:
+        out.plane_correction = 0.0
+        out.plane_active = False
+    if not after.crosstalk.switching.configured:
+        out.crosstalk_correction = 0.0
+        out.crosstalk_active = False
+    if not after.leadscrew.switching.configured:
+        out.leadscrew_correction = 0.0
+        out.leadscrew_active = False
+    if not after.friction.switching.configured:
+        out.current = 0.0
+        out.friction_active = False
 
 
 def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) -> None:

@@ -15,7 +15,7 @@ from .leadscrew import begin_leadscrew, leadscrew_value
 from .plane import plane_value
 from .record import Vec
 from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
-from .shift import release_shift
+from .shift import absorb_before_leadscrew, absorb_leadscrew, release_shift
 
 LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could overflow
 
@@ -28,6 +28,7 @@ def cycle(tables: Tables, state: State, inputs: Inputs, outputs: Outputs) -> Non
         axis = state.axis[i]
         if inputs.reset:
             axis.error = 0
+        activate(tables.axis[i], axis, inputs, inputs.axis[i])
         if axis.held:
             outputs.axis[i].error = ERROR_INPUT
         else:
@@ -55,10 +56,6 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
     table = tables.axis[i]
     axis = state.axis[i]
     given = inputs.axis[i]
-    activate(table, axis, inputs, given)
-    if not axis.started:
-        begin_leadscrew(table.leadscrew, axis.leadscrew, axis.setpoint)
-        axis.started = True
     release_shift(table, axis.shift, axis.moving)
 
     if table.cross.switching.configured:
@@ -72,6 +69,8 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
         position = axis.setpoint
         if not table.leadscrew.without_other:
             position += correction + axis.shift.before_leadscrew
+        if not axis.started:
+            begin_leadscrew(table.leadscrew, axis.leadscrew, position)
         correct_by_leadscrew(tables.pool, table, axis, position, out)
         correction += out.leadscrew_correction
 
@@ -81,6 +80,7 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
     out.display_position = given.actual_position - (correction + out.setpoint_shift)
     if table.friction.switching.configured:
         add_friction_current(tables, table, axis, out)
+    axis.started = True
 
 
 def correct_by_cross(pool: Vec, table: AxisTable, axis: AxisState, master: AxisState, out: AxisOutputs) -> None:
@@ -88,7 +88,7 @@ def correct_by_cross(pool: Vec, table: AxisTable, axis: AxisState, master: AxisS
     value = cross_value(pool, table.cross, axis.cross, master.setpoint)
     out.cross_correction = axis.cross.switching.weight * value
     out.cross_active = axis.cross.switching.step > 0
-    axis.shift.before_leadscrew -= axis.cross.switching.absorbed * value
+    absorb_before_leadscrew(axis.shift, axis.cross.switching.absorbed * value)
 
 
 def correct_by_plane(pool: Vec, table: AxisTable, axis: AxisState, state: State, out: AxisOutputs) -> None:
@@ -98,7 +98,7 @@ def correct_by_plane(pool: Vec, table: AxisTable, axis: AxisState, state: State,
     value = plane_value(pool, table.plane, master1, master2)
     out.plane_correction = axis.plane.switching.weight * value
     out.plane_active = axis.plane.switching.step > 0
-    axis.shift.before_leadscrew -= axis.plane.switching.absorbed * value
+    absorb_before_leadscrew(axis.shift, axis.plane.switching.absorbed * value)
 
 
 def correct_by_crosstalk(pool: Vec, table: AxisTable, axis: AxisState, state: State, out: AxisOutputs) -> None:
@@ -111,7 +111,7 @@ def correct_by_crosstalk(pool: Vec, table: AxisTable, axis: AxisState, state: St
     )
     out.crosstalk_correction = axis.crosstalk.switching.weight * value
     out.crosstalk_active = axis.crosstalk.switching.step > 0
-    axis.shift.before_leadscrew -= axis.crosstalk.switching.absorbed * value
+    absorb_before_leadscrew(axis.shift, axis.crosstalk.switching.absorbed * value)
 
 
 def correct_by_leadscrew(pool: Vec, table: AxisTable, axis: AxisState, position: float, out: AxisOutputs) -> None:
@@ -119,7 +119,7 @@ def correct_by_leadscrew(pool: Vec, table: AxisTable, axis: AxisState, position:
     value = leadscrew_value(pool, table.leadscrew, axis.leadscrew, position, table.modulo_range)
     out.leadscrew_correction = axis.leadscrew.switching.weight * value
     out.leadscrew_active = axis.leadscrew.switching.step > 0
-    axis.shift.leadscrew -= axis.leadscrew.switching.absorbed * value
+    absorb_leadscrew(axis.shift, axis.leadscrew.switching.absorbed * value)
 
 
 def add_friction_current(tables: Tables, table: AxisTable, axis: AxisState, out: AxisOutputs) -> None:

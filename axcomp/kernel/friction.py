@@ -70,10 +70,9 @@ def decay_predicted(table: FrictionTable, velocity: float, acceleration: float, 
     if velocity * acceleration >= 0.0:
         return 1.0
     cycles = -velocity / acceleration / cycle_time
-    if cycles > table.lookahead:
+    if cycles >= table.lookahead:
         return 1.0
-    left = -whole(-cycles) - 1.0
-    return max(left, 0.0) / table.lookahead
+    return whole(cycles) / table.lookahead
 
 
 def delayed(table: FrictionTable, state: FrictionState, current: float) -> float:

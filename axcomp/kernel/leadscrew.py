@@ -11,6 +11,8 @@ from .record import Vec
 from .records import LeadscrewState, LeadscrewTable
 from .switching import ramp
 
+ROUNDING = 1e-9  # mm or °: a change of the input below this is rounding, not motion
+
 
 def begin_leadscrew(table: LeadscrewTable, state: LeadscrewState, position: float) -> None:
     """Set the state at the start of a simulation: before any motion the positive direction counts."""
@@ -24,11 +26,9 @@ def leadscrew_value(
 ) -> float:
     """Return −Δ at full weight; ``position``: the input of the compensation, whose changes give the direction."""
     change = nearest(position - state.position, modulo_range)
-    state.position = position
-    if change > 0.0:
-        state.backward = False
-    elif change < 0.0:
-        state.backward = True
+    if change > ROUNDING or change < -ROUNDING:
+        state.position = position
+        state.backward = change < 0.0
     if state.backward:
         if state.reversal_step > 0:
             state.reversal_step -= 1

@@ -34,6 +34,7 @@ class SwitchState:
     enable: bool  # the input in the last cycle: its edges are the commands
     command: bool  # what was last commanded
     granted: bool  # the command, once it may act
+    no_move: bool  # the command came with NO_MOVE
     step: int  # k of w(k)
     weight: float  # w(k), 0 … 1
     absorbed: float  # change of the weight that NO_MOVE takes out of the output, this cycle only
@@ -154,7 +155,7 @@ class LeadscrewState:
 
     switching: SwitchState
     lookup: Lookup
-    position: float  # input in the last cycle
+    position: float  # input when it last changed
     backward: bool  # its last change was negative
     reversal_step: int  # reversal_cycles: positive values, 0: negative values
 
@@ -187,14 +188,15 @@ class FrictionState:
 
 @dataclass(slots=True)
 class ShiftState:
-    """The offsets that NO_MOVE has taken out of the output."""
+    """The offsets that NO_MOVE has taken out of the output: what waits, and what is being released."""
 
-    before_leadscrew: float  # of cross, plane and crosstalk: the leadscrew's input contains it
+    before_leadscrew: float  # of cross, plane and crosstalk, in force now: the leadscrew's input contains it
     leadscrew: float
-    releasing: bool
-    step: int  # of the release: shift_cycles … 0
-    held_before_leadscrew: float  # the shifts when the release began
-    held_leadscrew: float
+    waiting_before_leadscrew: float  # absorbed since the last release began
+    waiting_leadscrew: float
+    released_before_leadscrew: float  # as it was when the release began
+    released_leadscrew: float
+    step: int  # of the release: shift_cycles … 0; 0: none is under way
 
 
 @dataclass(slots=True)
