@@ -1,0 +1,122 @@
+"""From positions to errors: what a trial has shown without and with the compensation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..machine import Machine
+from ..measurement.motion import Array
+from .trials import Trial, name_of
+
+MILLI = 1e3
+BEFORE, AFTER = 10, 120
+"""Cycles around a reversal of the setpoint in which the quadrant peak is looked for."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """What a run has recorded of each axis, by its name, at the end of each cycle, shape (cycles,); mm or °."""
+
+    true_position: Mapping[str, Array]
+    following_error: Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The error of one axis in one trial, in µm or 0.001°.
+
+    Attributes
+    ----------
+    trial : Trial
+    axis : str
+    unit : str
+        ``µm`` or ``0.001°``.
+    cycles : array of int
+        The cycles that count.
+    without, compensated : array, shape as cycles
+        Tool error: true position − place where the axis should be.
+    following_error : float
+        Largest in these cycles, with compensation.
+    """
+
+    trial: Trial
+    axis: str
+    unit: str
+    cycles: Array
+    without: Array
+    compensated: Array
+    following_error: float
+
+    @property
+    def largest(self) -> tuple[float, float]:
+        """Largest error without and with compensation; of friction: the highest peak above what surrounds it."""
+        if self.trial.kind == "friction":
+            return self._peak(self.without), self._peak(self.compensated)
+        return float(np.max(np.abs(self.without))), float(np.max(np.abs(self.compensated)))
+
+    @property
+    def ratio(self) -> float:
+        """Error with ÷ error without compensation."""
+        without, compensated = self.largest
+        return compensated / without if without else 0.0
+
+    def _peak(self, error: Array) -> float:
+        velocity = self.trial.setpoints[self.axis].velocity
+        reversals = np.flatnonzero(velocity[:-1] * velocity[1:] <= 0.0)
+        peaks = []
+        for reversal in reversals:
+            near = error[(self.cycles >= reversal - BEFORE) & (self.cycles <= reversal + AFTER)]
+            if len(near) > BEFORE + AFTER:
+                peaks.append(np.max(np.abs(near - np.linspace(near[0], near[-1], len(near)))))
+        return float(max(peaks, default=0.0))
+
+
+def outcomes(machine: Machine, trials: Sequence[Trial], records: Sequence[tuple[Record, Record]]) -> Iterator[Outcome]:
+    """Yield the error of each axis in each trial; ``records``: of the runs without and with compensation."""
+    units = {name_of(axis): "µm" if axis.unit == "mm" else "0.001°" for axis in machine.axes}
+    for trial, (without, compensated) in zip(trials, records, strict=True):
+        for axis, cycles in trial.watched.items():
+            place = trial.place(axis)
+            errors = [MILLI * (record.true_position[axis] - place)[cycles] for record in (without, compensated)]
+            following = MILLI * float(np.max(np.abs(compensated.following_error[axis][cycles])))
+            yield Outcome(trial, axis, units[axis], cycles, errors[0], errors[1], following)
+
+
+def table(results: Sequence[Outcome]) -> str:
+    """Return the errors as a table for the terminal."""
+    heads = ("axis", "compensation", "without", "with", "", "left", "following error")
+    rows = [heads]
+    for result in results:
+        without, compensated = result.largest
+        rows.append(
+            (
+                result.axis,
+                LABELS[result.trial.kind],
+                f"{without:.2f}",
+                f"{compensated:.2f}",
+                result.unit,
+                f"{100.0 * result.ratio:.1f} %",
+                f"{result.following_error:.2f}",
+            )
+        )
+    widths = [max(len(row[column]) for row in rows) for column in range(len(heads))]
+    left = {0, 1, 4}
+    lines = []
+    for row in rows:
+        cells = [c.ljust(w) if n in left else c.rjust(w) for n, (c, w) in enumerate(zip(row, widths, strict=True))]
+        lines.append("  ".join(cells).rstrip())
+    lines.insert(1, "-" * max(len(line) for line in lines))
+    return "\n".join(lines)
+
+
+LABELS = {
+    "all": "all (diagonal)",
+    "leadscrew": "leadscrew",
+    "cross": "cross",
+    "plane": "plane",
+    "crosstalk": "crosstalk",
+    "friction": "friction (peaks)",
+}

@@ -1,0 +1,1 @@
+"""From measurements to lists: measuring a machine, here a simulated one, and making compensation tables of it."""

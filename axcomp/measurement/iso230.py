@@ -1,0 +1,287 @@
+"""Accuracy and repeatability of positioning by ISO 230-2:2014, clause 3 (definitions) and clause 5 (evaluation).
+
+With readings ``x_ij`` of run j at target i, ↑ in positive and ↓ in negative direction::
+
+    x̄_i↑ = mean_j x_ij↑          s_i↑ = sqrt(Σ_j (x_ij↑ − x̄_i↑)² / (n − 1))          x̄_i = (x̄_i↑ + x̄_i↓) / 2
+    B_i  = x̄_i↑ − x̄_i↓           B = max |B_i|             B̄ = mean B_i             M = max x̄_i − min x̄_i
+    R_i↑ = 4 s_i↑                R_i = max(2 s_i↑ + 2 s_i↓ + |B_i|, R_i↑, R_i↓)       R↑ = max R_i↑,  R = max R_i
+    E↑   = max x̄_i↑ − min x̄_i↑   E = max(x̄_i↑, x̄_i↓) − min(x̄_i↑, x̄_i↓)
+    A↑   = max(x̄_i↑ + 2 s_i↑) − min(x̄_i↑ − 2 s_i↑)    A = max(x̄_i↑ + 2 s_i↑, x̄_i↓ + 2 s_i↓) − min(… − 2 s …)
+
+What readings do not suffice for is NaN, and a note says why: with one run there is no s, so no R and no A; with one
+direction there is no B, M, E, R and A, only their one-directional kin.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .motion import Array
+from .positioning import Positioning
+from .uncertainty import Conditions
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+RUNS_STANDARD = 5
+"""Runs in each direction the standard asks for (clause 4.3)."""
+
+PARAMETERS = ("A", "A_up", "A_down", "R", "R_up", "R_down", "E", "E_up", "E_down", "M", "B", "B_mean")
+"""Names of the figures of an axis, in the order they are reported in."""
+
+SYMBOLS = {name: name.replace("_up", "↑").replace("_down", "↓").replace("B_mean", "B̄") for name in PARAMETERS}
+"""As the standard writes them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Iso230Result:
+    """What ISO 230-2 says of a measurement; all but ``positions`` in ``unit``, m targets.
+
+    Attributes
+    ----------
+    axis, source : str
+        Which axis, and from which file.
+    position_unit, unit : str
+        ``mm`` and ``µm``, or ``deg`` and ``0.001°``.
+    positions : array, shape (m,)
+        Targets, ascending, mm or °.
+    count_up, count_down : array of int, shape (m,)
+        Readings in positive and in negative direction.
+    mean_up, mean_down, mean : array, shape (m,)
+        x̄_i↑, x̄_i↓ and x̄_i.
+    s_up, s_down : array, shape (m,)
+        s_i↑ and s_i↓.
+    reversal : array, shape (m,)
+        B_i.
+    repeatability_up, repeatability_down, repeatability : array, shape (m,)
+        R_i↑, R_i↓ and R_i.
+    A, A_up, A_down, R, R_up, R_down, E, E_up, E_down, M, B, B_mean : float
+        Figures of the axis; NaN where the readings do not suffice.
+    uncertainty : mapping of str to float
+        Expanded uncertainty (k = 2) of the figures, by name; empty where the conditions of the test were not given.
+    readings : Positioning
+        What was evaluated.
+    notes : tuple of str
+        What is missing, and why.
+    """
+
+    axis: str
+    source: str
+    position_unit: str
+    unit: str
+    positions: Array
+    count_up: npt.NDArray[np.int64]
+    count_down: npt.NDArray[np.int64]
+    mean_up: Array
+    mean_down: Array
+    mean: Array
+    s_up: Array
+    s_down: Array
+    reversal: Array
+    repeatability_up: Array
+    repeatability_down: Array
+    repeatability: Array
+    A: float
+    A_up: float
+    A_down: float
+    R: float
+    R_up: float
+    R_down: float
+    E: float
+    E_up: float
+    E_down: float
+    M: float
+    B: float
+    B_mean: float
+    readings: Positioning = field(repr=False)
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def parameters(self) -> dict[str, float]:
+        """Return the figures of the axis by name, in the order of a report."""
+        return {name: getattr(self, name) for name in PARAMETERS}
+
+    def table(self) -> pd.DataFrame:
+        """Return the figures of each target as a data frame, one row a target, symbols of the standard as columns."""
+        import pandas as pd
+
+        return pd.DataFrame(
+            {
+                "n↑": self.count_up,
+                "n↓": self.count_down,
+                "x̄↑": self.mean_up,
+                "x̄↓": self.mean_down,
+                "x̄": self.mean,
+                "B": self.reversal,
+                "s↑": self.s_up,
+                "s↓": self.s_down,
+                "R↑": self.repeatability_up,
+                "R↓": self.repeatability_down,
+                "R": self.repeatability,
+                "U(x̄↑)": mean_uncertainty(self.s_up, self.count_up),
+                "U(x̄↓)": mean_uncertainty(self.s_down, self.count_down),
+            },
+            index=pd.Index(self.positions, name=f"target [{self.position_unit}]"),
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything for JSON; None stands for what is not available."""
+        columns = ("mean_up", "mean_down", "mean", "s_up", "s_down", "reversal")
+        columns += ("repeatability_up", "repeatability_down", "repeatability")
+        return {
+            "axis": self.axis,
+            "source": self.source,
+            "standard": "ISO 230-2:2014",
+            "position_unit": self.position_unit,
+            "unit": self.unit,
+            "parameters": {name: _plain(value) for name, value in self.parameters().items()},
+            "expanded_uncertainty_k2": {name: _plain(value) for name, value in self.uncertainty.items()},
+            "targets": [
+                {
+                    "position": float(position),
+                    "count_up": int(self.count_up[i]),
+                    "count_down": int(self.count_down[i]),
+                    **{name: _plain(getattr(self, name)[i]) for name in columns},
+                }
+                for i, position in enumerate(self.positions)
+            ],
+            "notes": list(self.notes),
+        }
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
+        from .iso230_plot import plot
+
+        return plot(self, ax)
+
+    def __repr__(self) -> str:
+        figures = ", ".join(
+            f"{SYMBOLS[name]} = {value:.2f}" for name, value in self.parameters().items() if not math.isnan(value)
+        )
+        return f"Iso230Result({self.axis or 'axis'}, {len(self.positions)} targets, {figures} {self.unit})"
+
+
+def evaluate(measurement: Positioning, conditions: Conditions | None = None) -> Iso230Result:
+    """Evaluate a positioning measurement.
+
+    Parameters
+    ----------
+    measurement : Positioning
+        Any number of runs; targets may be missing in some.
+    conditions : Conditions, optional
+        Of the test; with them the result has expanded uncertainties.
+    """
+    positions, _, deviations = measurement.grid()
+    counts = np.sum(~np.isnan(deviations), axis=2)
+    means = _mean(deviations, counts)
+    s = _standard_deviation(deviations, means, counts)
+    mean_up, mean_down = means
+    s_up, s_down = s
+    mean, reversal = (mean_up + mean_down) / 2.0, mean_up - mean_down
+    repeatability_up, repeatability_down = 4.0 * s_up, 4.0 * s_down
+    repeatability = np.maximum.reduce(
+        [2.0 * s_up + 2.0 * s_down + np.abs(reversal), repeatability_up, repeatability_down]
+    )
+    both = bool(np.any(counts[0]) and np.any(counts[1]))
+    result = Iso230Result(
+        axis=measurement.axis,
+        source=measurement.source,
+        position_unit=measurement.unit,
+        unit=measurement.deviation_unit,
+        positions=positions,
+        count_up=counts[0],
+        count_down=counts[1],
+        mean_up=mean_up,
+        mean_down=mean_down,
+        mean=mean,
+        s_up=s_up,
+        s_down=s_down,
+        reversal=reversal,
+        repeatability_up=repeatability_up,
+        repeatability_down=repeatability_down,
+        repeatability=repeatability,
+        A=_spread(means + 2.0 * s, means - 2.0 * s) if both else math.nan,
+        A_up=_spread(mean_up + 2.0 * s_up, mean_up - 2.0 * s_up),
+        A_down=_spread(mean_down + 2.0 * s_down, mean_down - 2.0 * s_down),
+        R=_largest(repeatability),
+        R_up=_largest(repeatability_up),
+        R_down=_largest(repeatability_down),
+        E=_spread(means, means) if both else math.nan,
+        E_up=_spread(mean_up, mean_up),
+        E_down=_spread(mean_down, mean_down),
+        M=_spread(mean, mean),
+        B=_largest(np.abs(reversal)),
+        B_mean=float(np.nanmean(reversal)) if np.any(~np.isnan(reversal)) else math.nan,
+        readings=measurement,
+        notes=_notes(counts),
+    )
+    if conditions is None:
+        return result
+    travel = float(positions[-1] - positions[0])
+    runs = int(min((n for n in counts.ravel() if n > 0), default=1))
+    uncertainty = conditions.of_parameters(travel, runs)
+    object.__setattr__(
+        result, "uncertainty", {k: u for k, u in uncertainty.items() if not math.isnan(getattr(result, k))}
+    )
+    return result
+
+
+def mean_uncertainty(s: Array, count: npt.NDArray[np.int64]) -> Array:
+    """Return the expanded uncertainty (k = 2) of means from the scatter alone, 2 s/√n (JCGM 100:2008, 4.2.3)."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return 2.0 * s / np.sqrt(count)
+
+
+def _mean(deviations: Array, counts: npt.NDArray[np.int64]) -> Array:
+    with np.errstate(invalid="ignore"):
+        mean: Array = np.nansum(deviations, axis=2) / counts
+    return mean
+
+
+def _standard_deviation(deviations: Array, means: Array, counts: npt.NDArray[np.int64]) -> Array:
+    squares = np.nansum((deviations - means[:, :, None]) ** 2, axis=2)
+    degrees = np.where(counts > 1, counts - 1.0, np.nan)
+    s: Array = np.sqrt(squares / degrees)
+    return s
+
+
+def _spread(upper: Array, lower: Array) -> float:
+    """Return the largest of one minus the smallest of the other, NaN where there is nothing."""
+    return _largest(upper) + _largest(-lower)
+
+
+def _largest(values: Array) -> float:
+    known = values[~np.isnan(values)]
+    return float(known.max()) if known.size else math.nan
+
+
+def _notes(counts: npt.NDArray[np.int64]) -> tuple[str, ...]:
+    notes = []
+    arrows = {0: "positive", 1: "negative"}
+    measured = [d for d in arrows if counts[d].any()]
+    if len(measured) == 1:
+        notes.append(f"Only the {arrows[measured[0]]} direction was measured: B, M, E, R and A do not exist.")
+    for d in measured:
+        missing, single = int(np.sum(counts[d] == 0)), int(np.sum(counts[d] == 1))
+        if missing:
+            notes.append(f"{missing} of {counts.shape[1]} targets have no reading in {arrows[d]} direction.")
+        if single == np.sum(counts[d] > 0):
+            notes.append(f"There is one run in {arrows[d]} direction: s, R and A do not exist for it.")
+        elif single:
+            notes.append(f"{single} targets have a single reading in {arrows[d]} direction: no s, R and A there.")
+    runs = int(counts[measured].max())
+    if runs < RUNS_STANDARD:
+        plural = "is one" if runs == 1 else f"are {runs}"
+        notes.append(f"ISO 230-2 asks for {RUNS_STANDARD} runs in each direction; there {plural}.")
+    return tuple(notes)
+
+
+def _plain(value: float) -> float | None:
+    return None if math.isnan(value) else float(value)

@@ -1,0 +1,99 @@
+"""Measurement uncertainty of a positioning test, expanded with k = 2.
+
+The contributions are those of ISO 230-2:2014, Annex A. Where only bounds of an influence are known it is uniformly
+distributed between them, so a range R contributes ``U = 2 · R / √12 = R/√3`` (the annex rounds 1/√3 to 0,6). With the travel L::
+
+    U_DEVICE       = device · L                           calibration of the instrument, stated with k = 2
+    U_MISALIGNMENT = misalignment² / (2 √3 L)             the cosine error is between 0 and misalignment² / 2L
+    U_M            = α · L · temperature_range / √3       the temperature of the machine is known within this range
+    U_E            = α_range · L · |ΔT| / √3              the expansion coefficient is known within α_range, ΔT from 20 °C
+    U_EVE          = drift / √3                           range of the readings of an axis at rest during the test
+
+The first four, ``U_L`` together, act on every length alike. Drift acts on every reading by itself. Propagated by JCGM 100:2008,
+5.1, with n runs in each direction (a mean has U_EVE/√n, a difference of two such means √2 as much)::
+
+    U(B) = U(B̄) = √(2/n) U_EVE                            U(M)² = U_L² + 1/n U_EVE²
+    U(E)² = U(E↑)² = U_L² + 2/n U_EVE²                    U(R↑) = 2 U_EVE: what drift alone would show as 4 s
+    U(R)² = U(R↑)² + U(B)²                                U(A)² = U(A↑)² = U(E)² + U(R↑)²
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+UNIFORM = 1.0 / math.sqrt(3.0)
+"""Expanded uncertainty (k = 2) of an influence known within a range of 1."""
+
+MICRO = 1e3
+"""mm to µm."""
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Of a test on a linear axis; what is left at 0 does not contribute.
+
+    Attributes
+    ----------
+    device : float
+        Expanded uncertainty (k = 2) of the instrument, µm per m of travel.
+    misalignment : float
+        How far instrument and axis may be out of line over the travel, mm.
+    temperature_range : float
+        Range within which the temperature of the machine is known, K.
+    temperature_offset : float
+        Temperature of the machine minus 20 °C, K.
+    expansion : float
+        Coefficient of the machine's scale, 10⁻⁶/K.
+    expansion_range : float
+        Range within which that coefficient is known, 10⁻⁶/K.
+    drift : float
+        Environmental variation error E_VE: range of readings at rest over the time of a test, µm.
+
+    Raises
+    ------
+    ValueError
+        One is negative (other than ``temperature_offset``) or not finite.
+    """
+
+    device: float = 0.0
+    misalignment: float = 0.0
+    temperature_range: float = 0.0
+    temperature_offset: float = 0.0
+    expansion: float = 11.7
+    expansion_range: float = 2.0
+    drift: float = 0.0
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if not math.isfinite(value) or (value < 0.0 and item.name != "temperature_offset"):
+                raise ValueError(f"{item.name.replace('_', ' ')} cannot be {value:g}")
+
+    def contributions(self, travel: float) -> dict[str, float]:
+        """Return U_DEVICE, U_MISALIGNMENT, U_M, U_E and U_EVE in µm for a travel in mm."""
+        length = travel / MICRO
+        return {
+            "U_DEVICE": self.device * length,
+            "U_MISALIGNMENT": 0.5 * UNIFORM * self.misalignment**2 / travel * MICRO if travel > 0.0 else 0.0,
+            "U_M": UNIFORM * self.expansion * length * self.temperature_range,
+            "U_E": UNIFORM * self.expansion_range * length * abs(self.temperature_offset),
+            "U_EVE": UNIFORM * self.drift,
+        }
+
+    def of_parameters(self, travel: float, runs: int) -> dict[str, float]:
+        """Return the expanded uncertainty of each figure of ISO 230-2 in µm."""
+        *lengths, drift = self.contributions(travel).values()
+        common = math.hypot(*lengths)
+        reversal = math.sqrt(2.0 / runs) * drift
+        systematic = math.hypot(common, reversal)
+        repeatability = 2.0 * drift
+        accuracy = math.hypot(systematic, repeatability)
+        return {
+            **dict.fromkeys(("A", "A_up", "A_down"), accuracy),
+            "R": math.hypot(repeatability, reversal),
+            **dict.fromkeys(("R_up", "R_down"), repeatability),
+            **dict.fromkeys(("E", "E_up", "E_down"), systematic),
+            "M": math.hypot(common, drift / math.sqrt(runs)),
+            **dict.fromkeys(("B", "B_mean"), reversal),
+        }

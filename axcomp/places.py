@@ -1,0 +1,25 @@
+"""Where the package's companions are: the sources of the FMUs and the example machines.
+
+They lie beside the package in a checkout, and inside it in an installed wheel.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def fmu_sources() -> Path:
+    """Return the folder of what goes into the FMUs."""
+    return _companion("fmu_src")
+
+
+def models() -> Path:
+    """Return the folder of the example machines."""
+    return _companion("models")
+
+
+def _companion(name: str) -> Path:
+    installed = _PACKAGE / f"_{name}"
+    return installed if installed.is_dir() else _PACKAGE.parent / name

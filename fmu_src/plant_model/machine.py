@@ -1,0 +1,121 @@
+"""The plant: all drives and the geometric errors between encoders and tool."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from .drive import STATE, Drive
+from .geometry import AxisErrors, Motion
+
+FILE_NAME = "plant.json"
+
+
+class PlantError(ValueError):
+    """The description of the plant is not usable; the message says where."""
+
+
+class Plant:
+    """Drives, masses and geometric errors of a machine.
+
+    Parameters
+    ----------
+    description : Mapping
+        ``sub_step`` in s and ``axes``, one for each, as in ``models/*/plant.json``.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The axes; everything else that is a list of axes has their order.
+    units : tuple of str
+        ``mm`` or ``deg``.
+    modulo : tuple of float
+        Range of a modulo axis in °, 0.0 for the others.
+    true : list of float
+        Position of the tool, mm or °.
+    """
+
+    def __init__(self, description: Mapping[str, Any]) -> None:
+        axes = description["axes"]
+        self.sub_step = float(description["sub_step"])
+        self.names = tuple(str(axis["name"]) for axis in axes)
+        self.drives: list[Drive] = []
+        self.errors: list[AxisErrors] = []
+        units = []
+        for index, axis in enumerate(axes):
+            rotary = axis["type"] == "rotary"
+            units.append("deg" if rotary else "mm")
+            try:
+                self.drives.append(Drive(axis, rotary, float(axis.get("modulo", 0.0))))
+                self.errors.append(AxisErrors(axis["errors"], index, self.names))
+            except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
+                raise PlantError(f"axis {axis['name']}: {type(error).__name__}: {error}") from error
+        self.units = tuple(units)
+        self.modulo = tuple(drive.modulo for drive in self.drives)
+        self.motion = Motion(len(axes))
+        self.true = [0.0] * len(axes)
+        self.rest_at([0.0] * len(axes))
+
+    @classmethod
+    def from_file(cls, path: Path) -> Plant:
+        """Read ``plant.json``; PlantError says what is wrong with it."""
+        try:
+            return cls(json.loads(path.read_text(encoding="utf-8")))
+        except (OSError, KeyError, TypeError, ValueError) as error:
+            raise PlantError(f"{path}: {error}") from error
+
+    @property
+    def measured(self) -> list[float]:
+        """Positions of the encoders."""
+        return self.motion.positions
+
+    @property
+    def currents(self) -> list[float]:
+        """Motor currents, mA."""
+        return [drive.current for drive in self.drives]
+
+    def rest_at(self, positions: Sequence[float], approach: Sequence[float] | None = None) -> None:
+        """Stand still at ``positions``, reached in the directions ``approach`` (±1; without: positive)."""
+        for drive, position in zip(self.drives, positions, strict=True):
+            drive.rest_at(position)
+        self.motion.approach = list(approach) if approach is not None else [1.0] * len(self.drives)
+        self._see()
+
+    def step(self, setpoints: Sequence[float], currents: Sequence[float], duration: float) -> None:
+        """Go on for ``duration`` s towards ``setpoints`` (mm or °) with additive ``currents`` (mA)."""
+        count = max(1, math.ceil(duration / self.sub_step - 1e-6))
+        approach = self.motion.approach
+        for index, drive in enumerate(self.drives):
+            before = drive.position
+            drive.advance(setpoints[index], currents[index], duration, count)
+            travel = drive.position - before
+            if drive.modulo:
+                travel -= drive.modulo * round(travel / drive.modulo)
+            approach[index] = self.errors[index].take_up(approach[index], travel)
+        self._see()
+
+    def _see(self) -> None:
+        motion = self.motion
+        for index, drive in enumerate(self.drives):
+            motion.positions[index] = drive.position
+            motion.velocities[index] = drive.velocity
+            motion.accelerations[index] = drive.acceleration
+        for index, errors in enumerate(self.errors):
+            self.true[index] = motion.positions[index] + errors.error(motion)
+
+    @property
+    def state(self) -> list[float]:
+        """Everything the plant remembers, as one list of floats."""
+        values = [getattr(drive, name) for drive in self.drives for name in STATE]
+        return values + self.motion.approach
+
+    @state.setter
+    def state(self, values: Sequence[float]) -> None:
+        for index, drive in enumerate(self.drives):
+            for name, value in zip(STATE, values[index * len(STATE) :], strict=False):
+                setattr(drive, name, value)
+        self.motion.approach = list(values[len(self.drives) * len(STATE) :])
+        self._see()

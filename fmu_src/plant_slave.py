@@ -1,0 +1,105 @@
+"""The plant as a pythonfmu slave: needs only the standard library and what lies beside it in ``resources/``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from plant_model import variables as v
+from plant_model.machine import FILE_NAME, Plant
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+LARGEST = 1e12
+"""Inputs beyond are not used, as if they were infinite."""
+
+
+class PlantSlave(Fmi2Slave):
+    """Feeds inputs to the plant and keeps its outputs; inputs that are not finite keep their last good value."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.plant = Plant.from_file(Path(self.resources) / FILE_NAME)
+        self.axes = range(len(self.plant.names))
+        self.values = [0.0] * (v.BLOCK * len(self.axes))
+        self.setpoints = [0.0] * len(self.axes)
+        self.currents = [0.0] * len(self.axes)
+
+    def exit_initialization_mode(self) -> None:
+        """Stand still at the setpoints."""
+        self._guard(self._begin)
+
+    def do_step(self, current_time: float, step_size: float) -> bool:  # noqa: ARG002
+        """Go on for ``step_size`` s with the inputs as they are."""
+        if step_size > 0.0:
+            self._guard(self._step, step_size)
+        return True
+
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """Return variables by value reference."""
+        values = self.values
+        return [values[vr] for vr in vrs]
+
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
+        """Set variables by value reference."""
+        own = self.values
+        for vr, value in zip(vrs, values, strict=True):
+            own[vr] = value
+
+    def _get_fmu_state(self) -> dict[str, Any]:
+        return {
+            "plant": self.plant.state,
+            "values": list(self.values),
+            "setpoints": list(self.setpoints),
+            "currents": list(self.currents),
+        }
+
+    def _set_fmu_state(self, state: dict[str, Any]) -> None:
+        self._guard(self._restore, state)
+
+    def _restore(self, state: dict[str, Any]) -> None:
+        if len(state["values"]) != len(self.values):
+            raise ValueError("the state belongs to another machine")
+        self.plant.state = state["plant"]
+        self.values = list(state["values"])
+        self.setpoints = list(state["setpoints"])
+        self.currents = list(state["currents"])
+
+    def _begin(self) -> None:
+        self._take_inputs()
+        self.plant.rest_at(self.setpoints)
+        self._give_outputs()
+
+    def _step(self, step_size: float) -> None:
+        self._take_inputs()
+        self.plant.step(self.setpoints, self.currents, step_size)
+        self._give_outputs()
+
+    def _take_inputs(self) -> None:
+        for axis in self.axes:
+            setpoint = self.values[v.BLOCK * axis + v.SETPOINT]
+            current = self.values[v.BLOCK * axis + v.CURRENT]
+            if -LARGEST < setpoint < LARGEST:
+                self.setpoints[axis] = setpoint
+            if -LARGEST < current < LARGEST:
+                self.currents[axis] = current
+
+    def _give_outputs(self) -> None:
+        values, plant = self.values, self.plant
+        for axis, drive in enumerate(plant.drives):
+            at = v.BLOCK * axis
+            values[at + v.TRUE_POSITION] = plant.true[axis]
+            values[at + v.MEASURED_POSITION] = drive.position
+            values[at + v.VELOCITY] = drive.velocity
+            values[at + v.MOTOR_CURRENT] = drive.current
+            values[at + v.FOLLOWING_ERROR] = drive.lag
+
+    def _guard(self, work: Any, *arguments: Any) -> None:
+        """Do something; what goes wrong is reported and the outputs stay: a second exception would end the host."""
+        try:
+            work(*arguments)
+        except Exception as error:  # noqa: BLE001
+            message = f"{type(error).__name__}: {error}".replace("%", "percent")
+            self.log(message, Fmi2Status.error)
+            print(f"{self.instance_name}: {message}", file=sys.stderr)
