@@ -1,0 +1,65 @@
+"""Timing: medians with their spread, never a single number."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Repeated measurements of one cost.
+
+    Attributes
+    ----------
+    name : str
+        What was measured.
+    unit : str
+        ``µs`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory.
+    values : tuple of float
+        The measurements.
+    goal : float or None
+        What it may cost at most, in the same unit; None: no figure is set.
+    """
+
+    name: str
+    unit: str
+    values: tuple[float, ...]
+    goal: float | None = None
+
+    @property
+    def median(self) -> float:
+        """Return the median."""
+        return statistics.median(self.values)
+
+    @property
+    def low(self) -> float:
+        """Return the least value."""
+        return min(self.values)
+
+    @property
+    def high(self) -> float:
+        """Return the greatest value."""
+        return max(self.values)
+
+
+def sample(
+    name: str,
+    unit: str,
+    work: Callable[[], object],
+    *,
+    repeats: int = 7,
+    each: int = 1,
+    goal: float | None = None,
+) -> Sample:
+    """Run ``work`` a few times after a warm-up; ``each`` is the number of cycles that one call runs."""
+    scale = {"s": 1.0, "ms": 1e3, "µs": 1e6}[unit] / each
+    work()
+    values = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        work()
+        values.append(scale * (time.perf_counter() - begin))
+    return Sample(name, unit, tuple(values), goal)

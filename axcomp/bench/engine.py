@@ -1,0 +1,96 @@
+"""What the engine costs: a cycle, a trajectory, reading lists, memory."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from ..engine import Engine
+from ..lists import read_machine, write_machine
+from ..machine import Machine
+from ..runtime import Runtime
+from .clock import Sample, sample
+from .machines import largest_machine, machine_of
+
+CYCLES = 2000
+AXES = (3, 8, 16, 32)
+POINTS = (10, 100, 1000, 10_000)
+
+
+def bench_engine(machine: Machine, name: str, repeats: int) -> Iterator[Sample]:
+    """Measure one machine: a cycle with its inputs set, and a cycle of a whole trajectory."""
+    yield sample(f"cycle of {name}, inputs set", "µs", _Motion(machine), repeats=repeats, each=CYCLES, goal=40.0)
+    engine = Engine(machine)
+    rows = 20_000
+    trajectory = {}
+    for variable in engine.variables:
+        if variable.causality == "input" and variable.field in {"setpoint", "velocity", "acceleration"}:
+            trajectory[variable.name] = 200.0 * np.sin(1e-3 * np.arange(rows) + len(trajectory))
+    yield sample(f"cycle of {name} in Engine.run", "µs", lambda: engine.run(trajectory), repeats=repeats, each=rows)
+
+
+def bench_growth(repeats: int) -> Iterator[Sample]:
+    """Measure how a cycle grows with the axes and with the points; every axis has all five kinds."""
+    for axes in AXES:
+        yield sample(
+            f"cycle, {axes} axes, 100 points", "µs", _Motion(machine_of(axes, 100)), repeats=repeats, each=CYCLES
+        )
+    for points in POINTS:
+        yield sample(
+            f"cycle, 3 axes, {points} points", "µs", _Motion(machine_of(3, points)), repeats=repeats, each=CYCLES
+        )
+
+
+def bench_lists(repeats: int) -> Iterator[Sample]:
+    """Measure reading the largest legal set of lists."""
+    with tempfile.TemporaryDirectory() as folder:
+        paths = write_machine(largest_machine(), folder)
+        lines = sum(path.read_bytes().count(b"\n") for path in paths)
+        yield sample(
+            f"reading the largest legal lists ({lines} lines)",
+            "s",
+            lambda: read_machine(Path(folder)),
+            repeats=min(repeats, 3),
+            goal=5.0,
+        )
+
+
+def bench_memory(machine: Machine, cycles: int) -> Iterator[Sample]:
+    """Measure by how much the process has grown at most after many cycles."""
+    try:
+        import resource  # noqa: PLC0415 - not on Windows, where this one figure is left out
+    except ImportError:
+        return
+    work = _Motion(machine)
+    work()
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    for _ in range(cycles // CYCLES):
+        work()
+    grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    yield Sample(f"growth of memory over {cycles} cycles", "MB", (grown / 1024,), 1.0)
+
+
+class _Motion:
+    """Runs ``CYCLES`` cycles in which every axis moves; the inputs were computed before."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.runtime = Runtime(machine)
+        count = len(machine.axes)
+        self.rows = [
+            [
+                (200 * math.sin(1e-3 * k + i), 200 * math.cos(1e-3 * k + i), -200 * math.sin(1e-3 * k + i))
+                for i in range(count)
+            ]
+            for k in range(CYCLES)
+        ]
+
+    def __call__(self) -> None:
+        axes, run = self.runtime.inputs.axis, self.runtime.cycle
+        for row in self.rows:
+            for axis, given in zip(axes, row, strict=True):
+                axis.setpoint, axis.velocity, axis.acceleration = given
+            run()

@@ -1,0 +1,65 @@
+"""``axcomp bench``: what a cycle costs, engine and FMU."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import tempfile
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+
+from ..bench.clock import Sample
+from ..bench.engine import bench_engine, bench_growth, bench_lists, bench_memory
+from ..bench.fmu import bench_fmu
+from ..lists import read_machine
+from ..places import models
+
+EXAMPLE = """example:
+  axcomp bench --quick
+  axcomp bench --format json > costs.json
+"""
+
+
+def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the sub-command."""
+    parser = subparsers.add_parser(
+        "bench",
+        help="measure what a cycle costs, engine and FMU",
+        description="Measure the cost of a cycle and of a whole trajectory: medians with least and greatest value.",
+        epilog=EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--quick", action="store_true", help="fewer repeats, 10⁴ instead of 10⁶ cycles for memory")
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
+    parser.set_defaults(do=_do_bench)
+
+
+def _do_bench(args: argparse.Namespace) -> int:
+    samples = []
+    if args.format == "text":
+        print(f"Python {platform.python_version()}, {platform.machine()}; median (least … greatest)")
+    for one in _samples(args.quick):
+        samples.append(one)
+        if args.format == "text":
+            print(_line(one), flush=True)
+    if args.format == "json":
+        print(json.dumps([{**asdict(one), "median": one.median} for one in samples], indent=2, ensure_ascii=False))
+    return 0
+
+
+def _samples(quick: bool) -> Iterator[Sample]:
+    repeats = 3 if quick else 9
+    machine = read_machine(models() / "three_axis").machine
+    yield from bench_engine(machine, "models/three_axis", repeats)
+    with tempfile.TemporaryDirectory() as folder:
+        yield from _fmus(Path(folder), repeats)
+    yield from bench_growth(repeats)
+    yield from bench_lists(repeats)
+    yield from bench_memory(machine, 10_000 if quick else 1_000_000)
+
+
+def _line(one: Sample) -> str:
+    goal = "" if one.goal is None else f"   at most {one.goal:g} {one.unit}"
+    return f"{one.name:58} {one.median:9.2f} {one.unit:2} ({one.low:.2f} … {one.high:.2f}){goal}"

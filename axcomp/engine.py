@@ -1,0 +1,203 @@
+"""The engine on its own: step by step or over whole trajectories, with the names of the FMU's variables."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from operator import attrgetter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .compile import CYCLE_TIME
+from .fmu.variable import Value, Variable, with_causality
+from .fmu.variables import Naming, by_name, record_of, variables_of
+from .lists import Finding, read_machine
+from .machine import Machine
+from .runtime import Runtime
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+CHUNK = 4096
+"""Cycles whose outputs are kept as Python objects before they go into arrays."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """Outputs over a trajectory.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        Instants of the cycles, s.
+    values : mapping of str to ndarray, shape (n,)
+        Output variables by name: float, int or bool.
+    notices : tuple of str
+        What the run has to say, a sentence each.
+    """
+
+    time: NDArray[np.float64]
+    values: Mapping[str, NDArray[Any]]
+    notices: tuple[str, ...] = ()
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return the values of one variable, shape (n,)."""
+        return self.values[name]
+
+    def __len__(self) -> int:
+        """Return the number of cycles."""
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        return f"Result({len(self)} cycles of {len(self.values)} variables)"
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write time and all variables as CSV that reads back to the same bits."""
+        names = ["time", *self.values]
+        columns = [self.time.tolist(), *(column.tolist() for column in self.values.values())]
+        lines = [",".join(names)]
+        lines += [",".join(repr(float(value)) for value in row) for row in zip(*columns, strict=True)]
+        Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+class Engine:
+    """The compensations of a machine, cycle by cycle.
+
+    Parameters
+    ----------
+    machine : Machine or path
+        A path is read as ``axcomp.lists.read_machine`` does.
+    cycle_time : float
+        Of the position controller, s.
+    naming : str
+        ``structured`` or ``flat``, as the FMU's variables.
+
+    Attributes
+    ----------
+    machine : Machine
+    findings : tuple of Finding
+        What the reader had to say; empty for a Machine.
+    variables : tuple of Variable
+        Those of the FMU that are inputs or outputs of a cycle.
+
+    Raises
+    ------
+    CompileError
+        If a Machine made by hand cannot be run.
+    """
+
+    def __init__(
+        self, machine: Machine | str | os.PathLike[str], cycle_time: float = CYCLE_TIME, naming: Naming = "structured"
+    ) -> None:
+        self.findings: tuple[Finding, ...] = ()
+        if not isinstance(machine, Machine):
+            reading = read_machine(machine)
+            machine, self.findings = reading.machine, tuple(reading.findings)
+        self.machine = machine
+        self.runtime = Runtime(machine, cycle_time)
+        self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._record(v) is not None)
+        self._by_name = by_name(self.variables)
+        self._outputs = with_causality(self.variables, "output")
+
+    @property
+    def time(self) -> float:
+        """Instant of the next cycle, s."""
+        return self.runtime.start_time + self.runtime.cycles * self.runtime.tables.cycle_time
+
+    def set(self, values: Mapping[str, Value]) -> None:
+        """Set inputs by name; they are held until set again. KeyError with the known names for an unknown one."""
+        for name, value in values.items():
+            variable = self._input(name)
+            setattr(self._record(variable), variable.field, type(variable.start)(value))
+
+    def get(self) -> dict[str, Value]:
+        """Return all outputs of the last cycle by name."""
+        return {variable.name: getattr(self._record(variable), variable.field) for variable in self._outputs}
+
+    def step(self, values: Mapping[str, Value] | None = None) -> dict[str, Value]:
+        """Set inputs, run one cycle, and return its outputs by name."""
+        self.set(values or {})
+        self.runtime.cycle()
+        return self.get()
+
+    def run(self, trajectory: Mapping[str, ArrayLike]) -> Result:
+        """Run one cycle for each row of a trajectory: the same bits as as many calls of ``step``.
+
+        Parameters
+        ----------
+        trajectory : mapping of str to array_like, shape (n,)
+            Inputs by name; a ``time`` column is ignored, inputs that are not named are held.
+
+        Raises
+        ------
+        KeyError
+            For a name that is no input.
+        ValueError
+            If the columns differ in length.
+        """
+        inputs = {name: column for name, column in trajectory.items() if name != "time"}
+        cycles = _length(inputs)
+        given = [self._input(name) for name in inputs]
+        setters = [(self._record(variable), variable.field) for variable in given]
+        columns = [_column(variable, inputs[variable.name]) for variable in given]
+        groups = self._output_groups()
+        values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
+        time = self.time + self.runtime.tables.cycle_time * np.arange(cycles, dtype=np.float64)
+        run_cycle = self.runtime.cycle
+        for first in range(0, cycles, CHUNK):
+            last = min(first + CHUNK, cycles)
+            rows: list[list[tuple[Value, ...]]] = [[] for _ in groups]
+            for row in zip(*(column[first:last].tolist() for column in columns), strict=True):
+                for (record, field), value in zip(setters, row, strict=True):
+                    setattr(record, field, value)
+                run_cycle()
+                for group, kept in zip(groups, rows, strict=True):
+                    kept.append(group.read())
+            for group, kept in zip(groups, rows, strict=True):
+                for variable, column in zip(group.variables, zip(*kept, strict=True), strict=True):
+                    values[variable.name][first:last] = column
+        return Result(time, values, tuple(self.runtime.notices()))
+
+    def _record(self, variable: Variable) -> Any:
+        return record_of(variable, variable.axis, self.runtime.inputs, self.runtime.outputs)
+
+    def _input(self, name: str) -> Variable:
+        variable = self._by_name.get(name)
+        if variable is None or variable.causality != "input":
+            known = ", ".join(v.name for v in with_causality(self.variables, "input"))
+            raise KeyError(f"{name} is no input; the inputs are {known}")
+        return variable
+
+    def _output_groups(self) -> list[_OutputGroup]:
+        """Return the outputs axis by axis, so that one call reads all of an axis."""
+        groups = []
+        for index in range(len(self.machine.axes)):
+            variables = [variable for variable in self._outputs if variable.axis == index]
+            read = attrgetter(*(variable.field for variable in variables))
+            groups.append(_OutputGroup(partial(read, self._record(variables[0])), variables))
+        return groups
+
+
+class _OutputGroup(NamedTuple):
+    """The outputs of one axis: ``read()`` returns their values."""
+
+    read: Callable[[], tuple[Value, ...]]
+    variables: list[Variable]
+
+
+def _length(columns: Mapping[str, ArrayLike]) -> int:
+    lengths = {name: np.shape(column) for name, column in columns.items()}
+    if not lengths:
+        raise ValueError("the trajectory has no input")
+    if len(set(lengths.values())) > 1 or any(len(shape) != 1 for shape in lengths.values()):
+        shapes = ", ".join(f"{name}: {shape}" for name, shape in lengths.items())
+        raise ValueError(f"the columns of a trajectory are one-dimensional and equally long, not {shapes}")
+    return int(next(iter(lengths.values()))[0])
+
+
+def _column(variable: Variable, values: ArrayLike) -> NDArray[Any]:
+    return np.asarray(values).astype(type(variable.start))
