@@ -16,6 +16,7 @@ from .kernel.crosstalk import (
     CROSSTALK_LINE,
     CROSSTALK_TRIANGLES,
 )
+from .kernel.cycle import LARGEST
 from .kernel.record import zero
 from .kernel.records import (
     CrossTable,
@@ -67,6 +68,8 @@ def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Tables:
         raise CompileError(f"the cycle time must be above 0 s, not {cycle_time}")
     if len(machine.axes) > AXES_MAX:
         raise CompileError(f"{len(machine.axes)} axes: at most {AXES_MAX} are possible")
+    if len({axis.number for axis in machine.axes}) < len(machine.axes):
+        raise CompileError("two axes have the same logical number")
     tables = zero(Tables)
     tables.cycle_time = cycle_time
     tables.axis_count = len(machine.axes)
@@ -89,7 +92,8 @@ class _AxisCompiler:
         axis, table = self.axis, self.table
         if axis.modulo is not None:
             table.modulo_range = axis.modulo.end - axis.modulo.start
-            self._require(table.modulo_range > 0.0, "the modulo range must be above 0")
+            self._require(1e-6 < table.modulo_range < LARGEST, "the modulo range must be above 0 and finite")
+        self._require(0 <= axis.backlash_cycles <= 20, "n_backlash_cyc is 0 … 20")
         if axis.cross is not None:
             self._cross(axis.cross, table.cross)
         if axis.plane is not None:
@@ -118,6 +122,7 @@ class _AxisCompiler:
         table.start1, table.start2 = plane.start1, plane.start2
         table.interval1, table.interval2 = plane.interval1, plane.interval2
         self._require(plane.interval1 > 0.0 and plane.interval2 > 0.0, "plane: the intervals must be above 0")
+        self._require(abs(plane.start1) < LARGEST and abs(plane.start2) < LARGEST, "plane: the starts must be finite")
         table.points2 = len(plane.corrections)
         self._require(table.points2 > 0 and len(plane.corrections[0]) > 0, "plane: the table is empty")
         table.points1 = len(plane.corrections[0])
@@ -139,7 +144,9 @@ class _AxisCompiler:
         )
         table.acceleration, table.deceleration = crosstalk.acceleration, crosstalk.deceleration
         table.velocity_dependent = crosstalk.velocity_dependent
-        self._require(len(crosstalk.tests) > 0, "crosstalk: there is no test")
+        self._require(0 < len(crosstalk.tests) <= 15, "crosstalk: there are 1 … 15 tests")
+        positions = [p for test in crosstalk.tests for p in (test.position1, test.position2)]
+        self._require(all(abs(p) < LARGEST for p in positions), "crosstalk: a position is not finite")
         if crosstalk.mode == 1:
             table.variant = CROSSTALK_CONSTANT
             self._tests(crosstalk.tests[:1], table)
@@ -211,7 +218,8 @@ class _AxisCompiler:
         self._switch(table.switching, False, 0, at_standstill=False)
         self._curve(table.curve, "friction", friction.velocities, friction.currents)
         self._require(friction.velocities[0] >= 0.0, "friction: velocities are not negative")
-        self._require(friction.position_delay >= 0.0, "friction: the position delay is not negative")
+        self._require(abs(friction.scaling) < LARGEST, "friction: the scaling must be finite")
+        self._require(0.0 <= friction.position_delay < LARGEST, "friction: the position delay is not negative")
         self._require(0 <= friction.reversal_lookahead <= 4, "friction: the look-ahead is 0 … 4 cycles")
         self._require(0 <= friction.delay_cycles < 249, "friction: the delay is 0 … 248 cycles")
         table.scaling = friction.scaling

@@ -1,8 +1,9 @@
-"""Delaunay triangles of a few points in the plane, in exact arithmetic.
+"""Delaunay triangles of a few points in the plane, in exact arithmetic on coordinates rounded to 1 pm.
 
 At most 15 acceleration tests (P-COMP-00083) need them, so every triple of points is looked at: a triangle belongs to
 the triangulation if its circumcircle holds no other point. Points on one circle allow several triangulations; the
-first triangles that do not overlap are taken.
+first triangles that do not overlap are taken. A triangle so flat that interpolation over it would be rounding (three
+points that are meant to be in a line) is left out.
 """
 
 from __future__ import annotations
@@ -10,6 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 from typing import NamedTuple
+
+UNITS = 1e9
+"""Whole coordinates per mm or °: points in a line of the lists' 0.1 µm are so in the rounded coordinates too."""
+
+FLAT = 10**6
+"""A triangle whose longest side is more than this many times its height is left out."""
 
 
 class Point(NamedTuple):
@@ -32,7 +39,7 @@ def triangulate(x: Sequence[float], y: Sequence[float]) -> Triangulation:
     triangles: list[tuple[int, int, int]] = []
     for a, b, c in combinations(range(len(points)), 3):
         turn = _turn(points[a], points[b], points[c])
-        if turn == 0:
+        if abs(turn) * FLAT <= _longest_side_squared(points[a], points[b], points[c]):
             continue
         triangle = (a, b, c) if turn > 0 else (a, c, b)
         if _circle_is_empty(points, triangle) and not any(_overlap(points, triangle, other) for other in triangles):
@@ -42,19 +49,16 @@ def triangulate(x: Sequence[float], y: Sequence[float]) -> Triangulation:
 
 
 def _whole_points(x: Sequence[float], y: Sequence[float]) -> list[Point]:
-    """Scale the coordinates by one power of two that makes all of them whole: floats are binary fractions."""
-    scale = max((v.as_integer_ratio()[1] for v in (*x, *y)), default=1)
-    return [Point(_scaled(u, scale), _scaled(v, scale)) for u, v in zip(x, y, strict=True)]
-
-
-def _scaled(value: float, scale: int) -> int:
-    numerator, denominator = value.as_integer_ratio()
-    return numerator * (scale // denominator)
+    return [Point(round(u * UNITS), round(v * UNITS)) for u, v in zip(x, y, strict=True)]
 
 
 def _turn(a: Point, b: Point, c: Point) -> int:
     """> 0 where a → b → c turns left, 0 where they are in a line."""
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+
+
+def _longest_side_squared(a: Point, b: Point, c: Point) -> int:
+    return max((p.x - q.x) ** 2 + (p.y - q.y) ** 2 for p, q in ((a, b), (b, c), (c, a)))
 
 
 def _circle_is_empty(points: Sequence[Point], triangle: tuple[int, int, int]) -> bool:

@@ -16,7 +16,7 @@ from .kernel.cycle import cycle
 from .kernel.record import zero
 from .kernel.records import Inputs, Outputs, State, Tables
 from .machine import KINDS, Axis, Machine
-from .snapshot import SnapshotError, pack, unpack
+from .snapshot import SnapshotError, identity_of, pack, unpack
 
 ON_INSTANT = 1e-6
 """Share of a cycle by which a communication point may miss the instant of a cycle and still mean it."""
@@ -62,6 +62,7 @@ class Runtime:
     def __init__(self, machine: Machine, cycle_time: float = CYCLE_TIME) -> None:
         self.machine = machine
         self.tables = compile_tables(machine, cycle_time)
+        self._identity = identity_of(self.tables)
         self.inputs = initial_inputs(self.tables)
         self.state = zero(State)
         self.outputs = zero(Outputs)
@@ -91,12 +92,15 @@ class Runtime:
     def save(self) -> bytes:
         """Return a snapshot of everything that changes: state, inputs, outputs and the clock."""
         clock = [self.start_time, float(self.cycles)]
-        return pack(self.state, self.inputs, self.outputs, clock)
+        return pack(self._identity, self.state, self.inputs, self.outputs, clock)
 
     def restore(self, data: bytes) -> None:
-        """Go back to a snapshot of this machine; SnapshotError if it is none, and nothing has changed then."""
+        """Go back to a snapshot of this machine; SnapshotError if it is none, and nothing has changed then.
+
+        The machine is the one in force: a snapshot from before an ``update`` belongs to another one.
+        """
         clock = [0.0, 0.0]
-        unpack(data, self.state, self.inputs, self.outputs, clock)
+        unpack(data, self._identity, self.state, self.inputs, self.outputs, clock)
         self.start_time = clock[0]
         self.cycles = int(clock[1])
 
@@ -138,6 +142,7 @@ class Runtime:
         tables = compile_tables(machine, self.tables.cycle_time)
         adopt(self.tables, tables, self.state, self.outputs)
         self.machine, self.tables = machine, tables
+        self._identity = identity_of(tables)
         for axis, state, outputs in zip(machine.axes, self.state.axis, self.outputs.axis, strict=True):
             state.error = outputs.error = errors.get(axis.name, 0)
         return errors

@@ -7,40 +7,51 @@ import struct
 import zlib
 from array import array
 from collections.abc import Iterator
-from typing import Any
+from typing import Annotated, Any, get_args, get_origin
 
-MAGIC = b"axcompS1"
-HEADER = struct.Struct("<8sII")  # magic, numbers, CRC-32 of the numbers
+from .kernel.record import fields_of
+
+MAGIC = b"axcompS2"
+NUMBERS = (float, int, bool)
+HEADER = struct.Struct("<8sIII")  # magic, identity, numbers, CRC-32 of the numbers
 
 
 class SnapshotError(ValueError):
     """Bytes that are no snapshot of these records; the message says why."""
 
 
-def pack(*records: Any) -> bytes:
-    """Return the numbers of the records as bytes; a ``Vec`` must not be among the fields."""
+def identity_of(record: Any) -> int:
+    """Return a CRC-32 of the numbers of a record, tables included: equal for equal machines."""
+    return zlib.crc32(array("d", _numbers(record)).tobytes())
+
+
+def pack(identity: int, *records: Any) -> bytes:
+    """Return the numbers of the records as bytes; a ``Vec`` must not be among the fields.
+
+    ``identity`` tells apart what the numbers belong to: a state may point behind the end of another machine's tables.
+    """
     numbers = array("d", [number for record in records for number in _numbers(record)])
     body = numbers.tobytes()
-    return HEADER.pack(MAGIC, len(numbers), zlib.crc32(body)) + body
+    return HEADER.pack(MAGIC, identity, len(numbers), zlib.crc32(body)) + body
 
 
-def unpack(data: bytes, *records: Any) -> None:
+def unpack(data: bytes, identity: int, *records: Any) -> None:
     """Put the numbers of a snapshot back into records of the same shape.
 
     Raises
     ------
     SnapshotError
-        If the bytes are truncated, altered, or of records of another shape; the records are as before then.
+        If the bytes are truncated or altered, or belong to something else; the records are as before then.
     """
     if len(data) < HEADER.size:
         raise SnapshotError("the snapshot is truncated")
-    magic, count, check = HEADER.unpack_from(data)
+    magic, owner, count, check = HEADER.unpack_from(data)
     body = data[HEADER.size :]
     if magic != MAGIC:
         raise SnapshotError("this is no snapshot of axcomp, or one of another version")
     if len(body) != 8 * count or zlib.crc32(body) != check:
         raise SnapshotError("the snapshot is truncated or altered")
-    if count != sum(1 for record in records for _ in _numbers(record)):
+    if owner != identity or count != sum(1 for record in records for _ in _numbers(record)):
         raise SnapshotError("the snapshot belongs to another machine")
     numbers = array("d")
     numbers.frombytes(body)
@@ -64,17 +75,22 @@ def _numbers(value: Any) -> Iterator[float]:
 
 
 def _restore(value: Any, source: Iterator[float]) -> None:
-    """Fill a record or a list in place."""
+    """Fill a record or a list of floats in place, whatever numbers a caller has put there meanwhile."""
     if isinstance(value, list):
-        for index, element in enumerate(value):
-            if isinstance(element, (bool, int, float)):
-                value[index] = type(element)(next(source))
-            else:
-                _restore(element, source)
+        _restore_list(value, float, source)
         return
-    for field in dataclasses.fields(value):
-        element = getattr(value, field.name)
-        if isinstance(element, (bool, int, float)):
-            setattr(value, field.name, type(element)(next(source)))
+    for name, hint in fields_of(type(value)).items():
+        if get_origin(hint) is Annotated:
+            _restore_list(getattr(value, name), get_args(get_args(hint)[0])[0], source)
+        elif hint in NUMBERS:
+            setattr(value, name, hint(next(source)))
         else:
-            _restore(element, source)
+            _restore(getattr(value, name), source)
+
+
+def _restore_list(values: list[Any], kind: Any, source: Iterator[float]) -> None:
+    if kind in NUMBERS:
+        values[:] = [kind(next(source)) for _ in values]
+        return
+    for value in values:
+        _restore(value, source)
