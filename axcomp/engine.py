@@ -146,7 +146,8 @@ class Engine:
         columns = [_column(variable, inputs[variable.name]) for variable in given]
         groups = self._output_groups()
         values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
-        time = self.time + self.runtime.tables.cycle_time * np.arange(cycles, dtype=np.float64)
+        instants = np.arange(self.runtime.cycles, self.runtime.cycles + cycles, dtype=np.float64)
+        time = self.runtime.start_time + self.runtime.tables.cycle_time * instants
         run_cycle = self.runtime.cycle
         for first in range(0, cycles, CHUNK):
             last = min(first + CHUNK, cycles)
