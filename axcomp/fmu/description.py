@@ -146,8 +146,9 @@ def _add_structure(root: Element, variables: Sequence[Variable]) -> None:
             continue
         parent = SubElement(structure, section)
         for variable in outputs:
-            needed = " ".join(index[name] for name in variable.depends_on)
-            SubElement(parent, "Unknown", index=index[variable.name], dependencies=needed)
+            unknown = SubElement(parent, "Unknown", index=index[variable.name])
+            if variable.depends_on is not None:
+                unknown.set("dependencies", " ".join(index[name] for name in variable.depends_on))
 
 
 def _text(value: Value) -> str:

@@ -35,8 +35,8 @@ class Variable:
         One of ``description.UNITS``, "" for none.
     variability : str
         ``continuous`` for Real and ``discrete`` for other inputs and outputs; ``fixed`` or ``tunable`` for parameters.
-    depends_on : tuple of str
-        Names of the inputs an output is computed from.
+    depends_on : tuple of str or None
+        Names of the inputs an output is computed from; None: of all inputs.
     axis : int or None
         Place of its axis in the machine; None: it belongs to no axis.
     field : str
@@ -50,7 +50,7 @@ class Variable:
     description: str
     unit: str = ""
     variability: Variability = "continuous"
-    depends_on: tuple[str, ...] = ()
+    depends_on: tuple[str, ...] | None = ()
     axis: int | None = None
     field: str = ""
 

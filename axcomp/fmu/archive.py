@@ -1,0 +1,66 @@
+"""The FMU as a file: a ZIP archive that has the same bytes whenever and wherever it is written."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import uuid
+import zipfile
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+
+DATE = (1980, 1, 1, 0, 0, 0)
+"""Of every entry: the earliest that ZIP knows."""
+
+LEVEL = 9
+UNIX = 3
+MODE = 0o100644 << 16
+
+
+class BuildError(Exception):
+    """An FMU cannot be built; the message is a sentence for the user."""
+
+
+def content_guid(parts: Mapping[str, bytes]) -> str:
+    """Return a GUID in braces that depends on names and contents only."""
+    digest = hashlib.sha256()
+    for name in sorted(parts):
+        digest.update(f"{name}\0{len(parts[name])}\0".encode())
+        digest.update(parts[name])
+    return f"{{{uuid.UUID(bytes=digest.digest()[:16], version=5)}}}"
+
+
+def generation_date() -> str:
+    """Return SOURCE_DATE_EPOCH as FMI writes a date, else a constant: a rebuild has the same bytes."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH", "946684800")
+    try:
+        return datetime.fromtimestamp(int(seconds), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    except (ValueError, OverflowError, OSError):
+        raise BuildError(f"SOURCE_DATE_EPOCH is no number of seconds: {seconds}") from None
+
+
+def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
+    """Write an archive; the model description comes first.
+
+    Raises
+    ------
+    BuildError
+        If the file cannot be written. One that was there before stays as it is then.
+    """
+    names = sorted(files, key=lambda name: (name != "modelDescription.xml", name))
+    unfinished = output.with_name(f"{output.name}.{os.getpid()}.part")
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        with zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as archive:
+            for name in names:
+                entry = zipfile.ZipInfo(name, DATE)
+                entry.compress_type = zipfile.ZIP_DEFLATED
+                entry.create_system = UNIX
+                entry.external_attr = MODE
+                archive.writestr(entry, files[name], compresslevel=LEVEL)
+        unfinished.replace(output)
+    except OSError as error:
+        raise BuildError(f"{output} cannot be written: {error.strerror or error}") from None
+    finally:
+        unfinished.unlink(missing_ok=True)

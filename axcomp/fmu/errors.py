@@ -1,0 +1,20 @@
+"""What the numbers of the output ``error`` mean."""
+
+from __future__ import annotations
+
+from ..kernel.records import ERROR_INPUT
+from ..runtime import CAPACITY_ERRORS
+
+ERROR_UPDATE = 902  # AXC-902
+ERROR_CALL = 903  # AXC-903
+
+ERRORS = {
+    ERROR_INPUT: "An input of the axis is not a finite number; its outputs are held",
+    ERROR_UPDATE: "The lists read by `reload` are refused, the old ones stay in force; the log says why",
+    ERROR_CALL: "A call of the FMU could not be carried out; the log says why",
+    **{
+        number: f"`reload` changes max_points of the {kind} compensation; the axis keeps its old lists"
+        for kind, number in CAPACITY_ERRORS.items()
+    },
+}
+"""Number → meaning, in the order of the reference page."""

@@ -1,0 +1,256 @@
+"""One instance of the FMU while it runs: what the calls of FMI 2.0 do. No call ever raises.
+
+What goes wrong is told in the log, on standard error, and by the output ``error`` of the axes. Standard library only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Concatenate, ParamSpec, TypeVar
+
+from ..compile import compile_tables
+from ..lists import read_machine
+from ..lists.findings import Severity
+from ..machine import Machine
+from ..runtime import Runtime
+from .errors import ERROR_CALL, ERROR_UPDATE
+from .interface import FILE_NAME, Interface
+from .saved import Saved
+from .variable import TYPE_NAMES, Value
+from .variables import Controls, every_place
+
+FINDINGS_MAX = 100
+"""Findings of one reading that go to the log."""
+
+REMEMBERED_MAX = 1000
+"""Messages that are told once only; beyond these nothing new is told."""
+
+_Parameters = ParamSpec("_Parameters")
+_Result = TypeVar("_Result")
+_Place = tuple[Any, str]
+
+
+def guarded(
+    method: Callable[Concatenate[Instance, _Parameters], _Result],
+) -> Callable[Concatenate[Instance, _Parameters], _Result | None]:
+    """Make a method report what it would raise, and return None then."""
+
+    @functools.wraps(method)
+    def call(self: Instance, /, *args: _Parameters.args, **kwargs: _Parameters.kwargs) -> _Result | None:
+        try:
+            return method(self, *args, **kwargs)
+        except Exception as error:
+            self.fail(f"{method.__name__}: {type(error).__name__}: {error}", ERROR_CALL)
+            return None
+
+    return call
+
+
+class Instance:
+    """An instance of the FMU.
+
+    Parameters
+    ----------
+    resources : str
+        Path of the FMU's ``resources``.
+    log : callable
+        Takes a severity and one line of text without ``%``.
+
+    Attributes
+    ----------
+    runtime : Runtime
+        The machine in operation.
+    controls : Controls
+        The variables that are not the kernel's.
+    """
+
+    def __init__(self, resources: str, log: Callable[[Severity, str], None]) -> None:
+        self._log = log
+        self._told: set[str] = set()
+        self._resources = Path(resources)
+        self._interface = Interface()
+        self._start_time = 0.0
+        self._initializing = False
+        self._reload_seen = False
+        self.controls = Controls()
+        self.runtime = Runtime(Machine())
+        self._start()
+        self._own_machine = self.runtime.machine
+        self._readable: dict[str, dict[int, _Place]] = {name: {} for name in TYPE_NAMES.values()}
+        self._settable: dict[str, dict[int, _Place]] = {name: {} for name in TYPE_NAMES.values()}
+        self._find_places()
+
+    @guarded
+    def _start(self) -> None:
+        """Read the lists; where that fails, the axes are there but not corrected."""
+        self._interface = Interface.from_json((self._resources / FILE_NAME).read_text(encoding="utf-8"))
+        self.controls.cycle_time = self._interface.cycle_time
+        self.runtime = Runtime(self._interface.bare(), self._interface.cycle_time)
+        machine, complaints, _ = self._read(self._own_lists)
+        for complaint in complaints:
+            self.tell(Severity.ERROR, complaint)
+        self.runtime = Runtime(machine, self._interface.cycle_time)
+
+    @property
+    def _own_lists(self) -> Path:
+        return self._resources / self._interface.lists
+
+    def _read(self, path: Path) -> tuple[Machine, list[str], int]:
+        """Return the machine of a list, what does not fit the variables, and the number of errors found."""
+        machine, findings = read_machine(path)
+        for finding in findings[:FINDINGS_MAX]:
+            self.tell(finding.severity, str(finding))
+        if len(findings) > FINDINGS_MAX:
+            self.tell(Severity.WARNING, f"{path.name}: {len(findings) - FINDINGS_MAX} more findings")
+        machine, complaints = self._interface.fit(machine)
+        return machine, complaints, sum(finding.severity is Severity.ERROR for finding in findings)
+
+    def _find_places(self) -> None:
+        """Note where the value of each reference stands, by type: a record and the name of its field."""
+        records = (self.runtime.inputs, self.runtime.outputs, self.controls)
+        for reference, declaration, record in every_place(len(self.runtime.machine.axes), *records):
+            name = TYPE_NAMES[type(declaration.start)]
+            self._readable[name][reference] = (record, declaration.field)
+            if declaration.causality != "output":
+                self._settable[name][reference] = (record, declaration.field)
+
+    # Reports
+
+    def tell(self, severity: Severity, text: str) -> None:
+        """Put a line into the log, an error on standard error too; the same line once only."""
+        line = " ".join(text.replace("%", " percent").replace("\0", " ").split())
+        line = line.encode("utf-8", "replace").decode()
+        if line in self._told or len(self._told) > REMEMBERED_MAX:
+            return
+        self._told.add(line)
+        self._log(severity, line)
+        if severity is Severity.ERROR:
+            with contextlib.suppress(OSError, ValueError, AttributeError):
+                sys.stderr.write(f"axcomp: {line}\n")
+
+    def fail(self, text: str, number: int) -> None:
+        """Tell an error, and set the output ``error`` of every axis until reset."""
+        self.tell(Severity.ERROR, text)
+        for state, outputs in zip(self.runtime.state.axis, self.runtime.outputs.axis, strict=True):
+            state.error = outputs.error = number
+
+    # Variables
+
+    def get(self, type_name: str, references: Sequence[int]) -> list[Any]:
+        """Return the values of variables of one type; 0, false or "" for a reference that is none."""
+        if self._initializing:
+            self._begin()
+        places = self._readable[type_name]
+        try:
+            return [getattr(*places[reference]) for reference in references]
+        except KeyError:
+            return [self._value(type_name, reference) for reference in references]
+
+    def _value(self, type_name: str, reference: int) -> Value:
+        place = self._readable[type_name].get(reference)
+        if place is None:
+            self.fail(f"there is no {type_name} variable with value reference {reference}", ERROR_CALL)
+            return ZEROS[type_name]
+        value: Value = getattr(*place)
+        return value
+
+    def set(self, type_name: str, references: Sequence[int], values: Sequence[Value]) -> None:
+        """Set variables of one type; a reference that is none, or of an output, is passed over."""
+        places = self._settable[type_name]
+        for reference, value in zip(references, values, strict=False):
+            place = places.get(reference)
+            if place is None:
+                self.fail(f"there is no {type_name} variable to set with value reference {reference}", ERROR_CALL)
+            else:
+                setattr(*place, value)
+
+    # Time
+
+    def set_up(self, start_time: float) -> None:
+        """Take the start time (fmi2SetupExperiment)."""
+        self._start_time = start_time
+
+    def enter_initialization(self) -> None:
+        """From now on outputs are computed whenever they are read (fmi2EnterInitializationMode)."""
+        self._initializing = True
+
+    def exit_initialization(self) -> None:
+        """Compute the outputs that belong to the start time (fmi2ExitInitializationMode)."""
+        self._begin()
+        self._initializing = False
+
+    @guarded
+    def _begin(self) -> None:
+        tables = self.runtime.tables
+        if self.controls.cycle_time != tables.cycle_time:
+            wanted, self.controls.cycle_time = self.controls.cycle_time, tables.cycle_time
+            self.runtime.tables = compile_tables(self.runtime.machine, wanted)
+            self.controls.cycle_time = wanted
+        self.runtime.begin(self._start_time)
+
+    @guarded
+    def do_step(self, time: float, duration: float) -> None:
+        """Run the cycles whose instants lie in [time, time + duration) with the inputs held."""
+        if self.controls.reload and not self._reload_seen:
+            self._reload_seen = True
+            self._reload()
+        self._reload_seen = self.controls.reload
+        self.runtime.advance(time + duration)
+        for notice in self.runtime.notices():
+            self.tell(Severity.WARNING, notice)
+
+    def _reload(self) -> None:
+        """Read the lists in ``update_path``; they are refused as a whole when anything about them is wrong."""
+        path = Path(self.controls.update_path) if self.controls.update_path else self._own_lists
+        try:
+            machine, complaints, errors = self._read(path)
+            if errors:
+                complaints.append(f"{errors} errors in the lists")
+            if complaints:
+                raise ValueError("; ".join(complaints))
+            for name, number in self.runtime.update(machine).items():
+                self.tell(Severity.ERROR, f"axis {name} keeps its old lists: error {number}")
+        except Exception as error:
+            self.fail(f"reload of {path} refused: {error}", ERROR_UPDATE)
+
+    # State
+
+    def save(self) -> bytes:
+        """Return everything that changes: state, inputs, outputs, clock, controls, and lists taken by ``reload``."""
+        machine = self.runtime.machine
+        saved = Saved(
+            self.controls.cycle_time,
+            self.controls.reload,
+            self.controls.update_path,
+            self._reload_seen,
+            self._initializing,
+            self._start_time,
+            None if machine is self._own_machine else machine,
+            self.runtime.save(),
+        )
+        return saved.to_bytes()
+
+    @guarded
+    def restore(self, data: bytes) -> None:
+        """Go back to what ``save`` returned, here or in another instance of the same FMU; else nothing changes."""
+        saved = Saved.from_bytes(data)
+        runtime = self.runtime
+        machine = saved.machine or self._own_machine
+        tables = runtime.tables
+        if machine is not runtime.machine or saved.cycle_time != tables.cycle_time:
+            tables = compile_tables(machine, saved.cycle_time)
+        runtime.restore(saved.snapshot)
+        runtime.machine, runtime.tables = machine, tables
+        self.controls.cycle_time = saved.cycle_time
+        self.controls.reload = saved.reload
+        self.controls.update_path = saved.update_path
+        self._reload_seen = saved.reload_seen
+        self._initializing = saved.initializing
+        self._start_time = saved.start_time
+
+
+ZEROS: dict[str, Value] = {name: kind() for kind, name in TYPE_NAMES.items()}

@@ -1,0 +1,199 @@
+"""Packs the FMUs that run on pythonfmu: the compensations with their lists, and the plant."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import os
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
+
+from ..compile import CYCLE_TIME, compile_tables
+from ..compile_pool import CompileError
+from ..lists import Finding, list_files, read_machine
+from ..machine import Machine
+from ..places import fmu_sources, models
+from .archive import BuildError, content_guid, generation_date, write_fmu
+from .description import Description, model_description
+from .interface import FILE_NAME, Interface
+from .plant import read_plant
+from .sources import renamed_sources
+from .variable import Variable
+from .variables import Naming, variables_of
+
+PACKAGE = Path(__file__).resolve().parents[1]
+LISTS = "machine"
+"""Folder of the lists in ``resources``."""
+
+STEP_OF_PLANT = 0.001
+
+
+class Built(NamedTuple):
+    """An FMU that was written."""
+
+    path: Path
+    machine: Machine
+    findings: tuple[Finding, ...]
+    variables: tuple[Variable, ...]
+
+
+def package_axcomp(
+    lists: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    cycle_time: float = CYCLE_TIME,
+    naming: Naming = "structured",
+    external_tool: bool = True,
+) -> Built:
+    """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
+
+    Parameters
+    ----------
+    lists : path
+        As in ``read_machine``. Everything it reads goes into the FMU.
+    output : path
+        File to write; replaced if it is there.
+    cycle_time : float
+        Of the position controller, s.
+    naming : str
+        ``structured`` or ``flat``.
+    external_tool : bool
+        False: the FMU does not say that it needs Python; some hosts refuse FMUs that need something.
+
+    Raises
+    ------
+    BuildError
+        If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
+    """
+    machine, findings = read_machine(lists)
+    if not machine.axes:
+        raise BuildError("\n".join([*map(str, findings), f"{lists}: there is no axis in these lists."]))
+    try:
+        compile_tables(machine, cycle_time)
+    except CompileError as error:
+        raise BuildError(f"{lists}: {error}") from None
+    place, resources = _packed_lists(Path(lists))
+    resources[FILE_NAME] = Interface.of(machine, place, cycle_time).to_json().encode()
+    variables = variables_of(machine, naming, cycle_time)
+    names = ", ".join(axis.name for axis in machine.axes)
+    description = Description(
+        name="axcomp",
+        text=f"Axis compensations of {names}",
+        step_size=cycle_time,
+        version=version(),
+        naming=naming,
+        generated=generation_date(),
+        capabilities={"needsExecutionTool": external_tool},
+    )
+    path = _write("axcomp.fmu", output, description, variables, (fmu_sources() / "axcomp_slave.py", PACKAGE), resources)
+    return Built(path, machine, findings, variables)
+
+
+def package_plant(
+    model: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    external_tool: bool = True,
+) -> Path:
+    """Write the FMU of the plant that ``plant.json`` in a model's folder describes; a folder: ``plant.fmu`` in it.
+
+    Raises
+    ------
+    BuildError
+        If the description is missing or wrong, pythonfmu is missing, or the file cannot be written.
+    """
+    variables, file = read_plant(Path(model))
+    description = Description(
+        name="plant",
+        text="Drives, friction and geometric errors of a machine",
+        step_size=STEP_OF_PLANT,
+        version=version(),
+        generated=generation_date(),
+        capabilities={"needsExecutionTool": external_tool},
+    )
+    sources = (fmu_sources() / "plant_slave.py", fmu_sources() / "plant_model")
+    return _write("plant.fmu", output, description, variables, sources, {file.name: _bytes(file)})
+
+
+def package_example(folder: str | os.PathLike[str] = ".", *, external_tool: bool = True) -> tuple[Built, Path]:
+    """Write ``axcomp.fmu`` and ``plant.fmu`` of the example machine ``models/three_axis`` into a folder."""
+    model = models() / "three_axis"
+    built = package_axcomp(model, Path(folder), external_tool=external_tool)
+    return built, package_plant(model, Path(folder), external_tool=external_tool)
+
+
+def version() -> str:
+    """Return the version of this package: of the checkout it lies in, else of the installed one."""
+    project = PACKAGE.parent / "pyproject.toml"
+    if project.is_file():
+        values = tomllib.loads(project.read_text(encoding="utf-8")).get("project", {})
+        if values.get("name") == PACKAGE.name:
+            return str(values["version"])
+    return importlib.metadata.version(PACKAGE.name)
+
+
+def _write(
+    name: str,
+    output: str | os.PathLike[str],
+    description: Description,
+    variables: Sequence[Variable],
+    sources: tuple[Path, Path],
+    resources: Mapping[str, bytes],
+) -> Path:
+    """Put an FMU together: slave and package, resources, pythonfmu, model description."""
+    path = Path(output)
+    if path.is_dir():
+        path /= name
+    module, files = renamed_sources(*sources)
+    files = {f"resources/{key}": value for key, value in {**files, **resources}.items()}
+    files["resources/slavemodule.txt"] = module.encode()
+    files.update(_pythonfmu(description.name))
+    guid = content_guid({**files, "modelDescription.xml": model_description(description, variables, "")})
+    files["modelDescription.xml"] = model_description(description, variables, guid)
+    write_fmu(path, files)
+    return path
+
+
+def _pythonfmu(model_identifier: str) -> dict[str, bytes]:
+    """Return pythonfmu's loaders under the name of the model, its Python part, and its license."""
+    spec = importlib.util.find_spec("pythonfmu")
+    if spec is None or spec.origin is None:
+        raise BuildError("pythonfmu is not installed: pip install 'pythonfmu>=0.7,<0.8'")
+    folder = Path(spec.origin).parent
+    files = {f"resources/pythonfmu/{path.name}": _bytes(path) for path in folder.glob("*.py")}
+    binaries = folder / "resources" / "binaries"
+    libraries = [path for pattern in ("*.so", "*.dll", "*.dylib") for path in binaries.rglob(pattern)]
+    if not libraries:
+        raise BuildError(f"pythonfmu has no libraries in {binaries}; install it again.")
+    for path in libraries:
+        platform = path.parent.relative_to(binaries).as_posix()
+        files[f"binaries/{platform}/{model_identifier}{path.suffix}"] = _bytes(path)
+    for license_file in importlib.metadata.files("pythonfmu") or ():
+        if license_file.name == "LICENSE":
+            files["documentation/licenses/pythonfmu.txt"] = license_file.read_binary()
+    return files
+
+
+def _packed_lists(lists: Path) -> tuple[str, dict[str, bytes]]:
+    """Return what to read in ``resources``, and the files: they lie to each other as they do on disk."""
+    start, *found = (_absolute(path) for path in (lists, *list_files(lists)))
+    try:
+        root = Path(os.path.commonpath([start if start.is_dir() else start.parent, *(path.parent for path in found)]))
+    except ValueError:
+        raise BuildError(f"{lists}: the lists lie on different drives.") from None
+    place = PurePosixPath(LISTS, start.relative_to(root).as_posix())
+    return str(place), {str(PurePosixPath(LISTS, path.relative_to(root).as_posix())): _bytes(path) for path in found}
+
+
+def _absolute(path: Path) -> Path:
+    """Return a path from the root, links as they are named: the lists' names must lead to the same files."""
+    return Path(os.path.normpath(path.absolute()))
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise BuildError(f"{path} cannot be read: {error.strerror or error}") from None

@@ -1,0 +1,61 @@
+"""The state of an FMU instance as bytes, checked before it is trusted."""
+
+from __future__ import annotations
+
+import io
+import pickle
+import zlib
+from dataclasses import dataclass, fields
+from typing import Any
+
+from .. import machine as machine_classes
+from .. import volumetric as volumetric_classes
+from ..machine import Machine
+from ..snapshot import SnapshotError
+
+MAGIC = b"axcompF1"
+
+
+@dataclass(frozen=True)
+class Saved:
+    """What an instance remembers, beside its lists in ``resources``.
+
+    ``machine`` is None while the lists in ``resources`` are in force; ``snapshot``: ``Runtime.save``.
+    """
+
+    cycle_time: float
+    reload: bool
+    update_path: str
+    reload_seen: bool
+    initializing: bool
+    start_time: float
+    machine: Machine | None
+    snapshot: bytes
+
+    def to_bytes(self) -> bytes:
+        """Return bytes with a check sum."""
+        body = pickle.dumps(tuple(getattr(self, field.name) for field in fields(self)), protocol=4)
+        return MAGIC + zlib.crc32(body).to_bytes(4, "little") + body
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Saved:
+        """Return what ``to_bytes`` wrote; SnapshotError if it is something else."""
+        head = len(MAGIC)
+        body = data[head + 4 :]
+        if data[:head] != MAGIC or zlib.crc32(body) != int.from_bytes(data[head : head + 4], "little"):
+            raise SnapshotError("this is no state of this FMU, or it is truncated or altered")
+        try:
+            return cls(*_MachineUnpickler(io.BytesIO(body)).load())
+        except (pickle.UnpicklingError, TypeError, ValueError, EOFError, IndexError, AttributeError) as error:
+            raise SnapshotError(f"this state belongs to another version: {error}") from None
+
+
+class _MachineUnpickler(pickle.Unpickler):
+    """Loads the dataclasses that a Machine consists of, and nothing else."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        for classes in (machine_classes, volumetric_classes):
+            found = getattr(classes, name, None)
+            if module == classes.__name__ and isinstance(found, type) and found.__module__ == module:
+                return found
+        raise pickle.UnpicklingError(f"{module}.{name}")
