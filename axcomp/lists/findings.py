@@ -94,6 +94,7 @@ CODES: dict[str, tuple[Severity, str]] = {
     # Compensations
     "AXC-INACTIVE": (_INFO, "A table is there, but nothing activates it"),
     "AXC-NO-TABLE": (_WARNING, "The axis activates a compensation that has no table"),
+    "AXC-SIZE": (_ERROR, "The used size of a table is 0"),
     "AXC-GAP": (_WARNING, "A table lacks an entry within its used size; 0 is used"),
     "AXC-MASTER": (_ERROR, "A master or adaptation axis is missing, unknown or of a type that cannot serve"),
     "AXC-MASTER-SELF": (_WARNING, "An axis is its own master"),

@@ -18,7 +18,7 @@ _NAME_END = rf"(?:\s+|(?=[{QUOTES}])|$)"
 _ENTRY = re.compile(
     r"\s*([^\W0-9][\w.]*)"  # name up to its indices
     r"(?:\[\s*([0-9]{1,9})\s*\](?:\[\s*([0-9]{1,9})\s*\])?([\w.]*))?"  # at most two indices, and what follows them
-    rf"{_NAME_END}(\S*)(.*)"
+    rf"{_NAME_END}([+-]?[0-9]{{1,18}}(?!\S))?(.*)"  # an integer, if it is one, and what follows
 )
 _ANY_NAME = re.compile(rf"\s*([^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*){_NAME_END}(.*)")
 _INDEX = re.compile(r"\[([0-9\s]*)\]")
@@ -41,19 +41,29 @@ class Entry(NamedTuple):
         Name as it is written, indices left empty: ``kw.ssfk.table[].pos``.
     indices : tuple of int
         The indices in their order.
-    word : str
-        Value up to the first blank: all there is to a number.
-    text : str
-        Everything after the name, comment included.
+    integer : str
+        The value if it is an integer, else "".
+    rest : str
+        Everything after the name, or after the integer, comment included.
     line : int
         Counted from 1.
     """
 
     key: str
     indices: tuple[int, ...]
-    word: str
-    text: str
+    integer: str
+    rest: str
     line: int
+
+    @property
+    def text(self) -> str:
+        """Everything after the name."""
+        return self.integer + self.rest
+
+    @property
+    def word(self) -> str:
+        """Value up to the first blank: all there is to a number."""
+        return self.integer or (self.rest.split(None, 1) or [""])[0]
 
     @property
     def name(self) -> str:
@@ -90,16 +100,16 @@ def entries(text: str, report: Report) -> Iterator[Entry]:
             if odd := _odd(line, number, report):
                 yield odd
             continue
-        name, first, second, rest, word, more = found.groups()
-        if first is None:
-            if not word and name.lower() == "end":
+        name, first, second, tail, integer, rest = found.groups("")
+        if not first:
+            if not integer and not rest and name.lower() == "end":
                 _report_after_end(lines, number, report)
                 return
-            yield Entry(name, (), word, word + more, number)
-        elif second is None:
-            yield Entry(f"{name}[]{rest}", (int(first),), word, word + more, number)
+            yield Entry(name, (), integer, rest, number)
+        elif not second:
+            yield Entry(f"{name}[]{tail}", (int(first),), integer, rest, number)
         else:
-            yield Entry(f"{name}[][]{rest}", (int(first), int(second)), word, word + more, number)
+            yield Entry(f"{name}[][]{tail}", (int(first), int(second)), integer, rest, number)
 
 
 def _odd(line: str, number: int, report: Report) -> Entry | None:
@@ -111,9 +121,7 @@ def _odd(line: str, number: int, report: Report) -> Entry | None:
     if found is not None:
         digits = [index.strip() for index in _INDEX.findall(found[1])]
         if all(index.isdigit() and len(index) < 10 for index in digits):
-            text = found[2]
-            word = text.split(None, 1)[0] if text.strip() else ""
-            return Entry(_INDEX.sub("[]", found[1]), tuple(map(int, digits)), word, text, number)
+            return Entry(_INDEX.sub("[]", found[1]), tuple(map(int, digits)), "", found[2], number)
     report("AXC-ELISION" if _ELISION.match(line) else "AXC-SYNTAX", number, stripped)
     return None
 

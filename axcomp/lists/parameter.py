@@ -102,6 +102,11 @@ class Range:
             match[4] == ")",
         )
 
+    @property
+    def words(self) -> str:
+        """The interval for a sentence: ``> 0 and ≤ 20``."""
+        return f"{'>' if self.low_open else '≥'} {self.low} and {'<' if self.high_open else '≤'} {self.high}"
+
     def __contains__(self, value: int | Decimal) -> bool:
         """Whether a number lies inside."""
         low = value > self.low if self.low_open else value >= self.low

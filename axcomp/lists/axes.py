@@ -1,0 +1,158 @@
+"""The axis lists: what an axis is, and which compensations it activates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ..machine import AXES_MAX, AxisType, ModuloRange
+from .findings import Findings
+from .values import METRIC, Gear, ListValues
+
+ACTIVATION = {
+    "cross": "lr_param.crosscomp",
+    "plane": "lr_param.crosscomp2",
+    "crosstalk": "lr_param.crosstalk",
+    "leadscrew": "lr_param.ssfk",
+    "friction": "lr_param.frict_comp",
+}
+"""Kind of compensation → the axis parameter that activates it."""
+
+_MODULO_BIT = 0x4
+_NAME = "kopf.log_achs_name"
+
+
+@dataclass
+class AxisSettings:
+    """What the lists say about one axis besides its compensation tables.
+
+    Attributes
+    ----------
+    number : int
+        Logical axis number.
+    name : str
+        "" where no list names it.
+    name_at : tuple of file and line
+        Where it is named.
+    type : AxisType
+    modulo : ModuloRange or None
+    backlash_cycles : int
+        P-AXIS-00243.
+    gear : Gear
+        Path resolution.
+    activated : dict of str to bool
+        By kind of compensation. None: there is no axis list at all, whatever is plausible acts.
+    activated_at : dict of str to (file, line)
+        Where that stands.
+    s_limit, v_limit : float
+        Limits of a volumetric correction in mm and mm/s (P-AXIS-00525, P-AXIS-00526); 0: not defined.
+    gantry_master : int
+        Logical number of the gantry master, 0 if there is none (P-AXIS-00070).
+    """
+
+    number: int
+    name: str = ""
+    name_at: tuple[str, int] = ("", 0)
+    type: AxisType = AxisType.TRANSLATORY
+    modulo: ModuloRange | None = None
+    backlash_cycles: int = 0
+    gear: Gear = METRIC
+    activated: dict[str, bool] | None = None
+    activated_at: dict[str, tuple[str, int]] = field(default_factory=dict)
+    s_limit: float = 0.0
+    v_limit: float = 0.0
+    gantry_master: int = 0
+
+    def take_name(self, values: ListValues) -> None:
+        """Take the name that a list gives the axis itself, unless it has one."""
+        if not self.name and values.given(_NAME):
+            self.name = values.text(_NAME)
+            self.name_at = values.place(_NAME)
+
+
+def read_axis(number: int, values: ListValues, findings: Findings) -> AxisSettings:
+    """Return the settings of an axis from its list, which falls back on the list for all axes."""
+    numerator = values.integer("getriebe[i].wegaufn", 0)
+    denominator = values.integer("getriebe[i].wegaufz", 0)
+    axis = AxisSettings(
+        number=number,
+        type=AxisType(values.integer("kenngr.achs_typ")),
+        modulo=_modulo(values, findings) if values.integer("kenngr.achs_mode") & _MODULO_BIT else None,
+        backlash_cycles=values.integer("lr_param.n_backlash_cyc"),
+        gear=METRIC if numerator == denominator else Gear(numerator, denominator),
+        activated={kind: values.flag(name) for kind, name in ACTIVATION.items()},
+        activated_at={kind: values.place(name) for kind, name in ACTIVATION.items()},
+        s_limit=values.converted("lr_param.vol_comp.s_limit"),
+        v_limit=values.converted("lr_param.vol_comp.v_limit"),
+        gantry_master=values.integer("kenngr.gantry_ax_nr"),
+    )
+    axis.take_name(values)
+    return axis
+
+
+def _modulo(values: ListValues, findings: Findings) -> ModuloRange:
+    low, high = "getriebe[i].modulou", "getriebe[i].moduloo"
+    modulo = ModuloRange(values.converted(low, 0), values.converted(high, 0))
+    if modulo.end > modulo.start:
+        return modulo
+    file, line = values.place(high if values.line(high, 0) else low, 0)
+    message = f"The modulo range {modulo.start:g} … {modulo.end:g} is empty; 0 … 360 is used."
+    findings.add("110052", file, line, "getriebe[0].moduloo", message)
+    return ModuloRange()
+
+
+class Axes:
+    """The axes of a machine in the order of its lists, by logical number; at most ``AXES_MAX``.
+
+    Parameters
+    ----------
+    findings : Findings
+        Gets told of axes there is no room for.
+    invent : bool
+        Whether a master that no list describes becomes an axis of its own: so it is without any axis list.
+    """
+
+    def __init__(self, findings: Findings, invent: bool) -> None:
+        self._findings = findings
+        self._axes: dict[int, AxisSettings] = {}
+        self.invent = invent
+
+    def __contains__(self, number: int) -> bool:
+        """Whether there is an axis of that number."""
+        return number in self._axes
+
+    def all(self) -> list[AxisSettings]:
+        """Return the axes in their order."""
+        return list(self._axes.values())
+
+    def add(self, axis: AxisSettings, file: str, line: int, parameter: str) -> bool:
+        """Take an axis in; a finding at the given place and False if there is no room."""
+        if len(self._axes) >= AXES_MAX:
+            message = f"Axis {axis.number} would be one more than {AXES_MAX} axes; it is left out."
+            self._findings.add("AXC-AXES", file, line, parameter, message)
+            return False
+        self._axes[axis.number] = axis
+        return True
+
+    def get(self, number: int) -> AxisSettings:
+        """Return an axis; KeyError if there is none."""
+        return self._axes[number]
+
+    def names(self) -> dict[int, str]:
+        """Return a name for each axis, all different: its own, else ``axis<number>``."""
+        names: dict[int, str] = {}
+        taken: set[str] = set()
+        for axis in self.all():
+            name = axis.name or f"axis{axis.number}"
+            if name in taken:
+                name = self._another(name, axis, taken)
+            names[axis.number] = name
+            taken.add(name)
+        return names
+
+    def _another(self, name: str, axis: AxisSettings, taken: set[str]) -> str:
+        other = f"{name}_{axis.number}"
+        while other in taken:
+            other += "_"
+        message = f"Another axis is called {name}; axis {axis.number} is called {other}."
+        self._findings.add("AXC-NAME", *axis.name_at, _NAME, message)
+        return other

@@ -1,0 +1,78 @@
+"""Values and entries as text: what the writers of all lists share."""
+
+from __future__ import annotations
+
+from decimal import Context, Decimal
+
+from .catalogue import parameter
+from .grammar import string
+from .parameter import ListKind, Parameter, Quantity, Value
+
+_EXACT = Context(prec=1000)
+_NAME_WIDTH = 40
+
+
+def in_list(value: float, quantity: Quantity) -> int | Decimal:
+    """Return mm, °, mm/s, °/s or a factor in the unit of the lists: the decimal that reads back to the same float."""
+    exact = Decimal(repr(float(value))).scaleb(len(str(quantity.divisor)) - 1, _EXACT)
+    if not exact.is_finite():
+        raise ValueError(f"{value} cannot stand in a list")
+    return int(exact) if exact == exact.to_integral_value() else exact
+
+
+class Lines:
+    """The entries of one list, checked against the catalogue as they are added.
+
+    Every method raises ValueError for a value that a list cannot hold.
+    """
+
+    def __init__(self, kind: ListKind) -> None:
+        self._kind = kind
+        self._lines: list[str] = []
+        self._parameters: dict[str, Parameter] = {}
+
+    def add(self, name: str, value: Value, *indices: int) -> None:
+        """Append an entry with a value in the unit of the list."""
+        row = self._parameter(name)
+        shown = row.named(*indices) if indices else name
+        if not row.takes(int(value) if isinstance(value, bool) else value):
+            raise ValueError(f"{shown} cannot be {value} in a list")
+        self._lines.append(f"{shown:<{_NAME_WIDTH}} {_text(value, shown)}")
+
+    def add_converted(self, name: str, value: float, *indices: int) -> None:
+        """Append an entry with a value in mm, °, mm/s, °/s or a factor."""
+        self.add(name, in_list(value, self._parameter(name).quantity), *indices)
+
+    def add_unless_default(self, name: str, value: Value) -> None:
+        """Append an entry unless the default says the same."""
+        if value != self._parameter(name).default:
+            self.add(name, value)
+
+    def heading(self, text: str) -> None:
+        """Append a blank line and a comment."""
+        self._lines.extend(("", f"# {text}"))
+
+    def text(self) -> str:
+        """Return the whole list, closed by ``End``."""
+        return "\n".join((*self._lines, "End", ""))
+
+    def _parameter(self, name: str) -> Parameter:
+        try:
+            return self._parameters[name]
+        except KeyError:
+            return self._parameters.setdefault(name, parameter(self._kind, name))
+
+
+def _text(value: Value, name: str) -> str:
+    if isinstance(value, str):
+        return _quoted(value, name)
+    return format(value, "f") if isinstance(value, Decimal) else str(int(value))
+
+
+def _quoted(value: str, name: str) -> str:
+    """Return a string, in quotes where it needs them; ValueError if even these do not help."""
+    for text in (value, f'"{value}"'):
+        found = string(text)
+        if found.value == value and not found.fault and not found.comment and text and not {"\n", "\r"} & set(text):
+            return text
+    raise ValueError(f"{name} cannot be {value!r} in a list")

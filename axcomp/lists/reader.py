@@ -1,0 +1,237 @@
+"""All lists of a machine, read into one ``Machine``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..machine import KINDS, Axis, Machine
+from . import cross, crosstalk, friction, leadscrew, plane
+from .axes import ACTIVATION, Axes, AxisSettings, read_axis
+from .compensation import CompensationList
+from .files import Files
+from .findings import Finding, Findings, ListError, Severity
+from .parameter import ListKind
+from .start_up import MachineFiles, NamedList, find_lists
+from .values import ListValues, read_values
+
+
+class Reading(NamedTuple):
+    """A machine as its lists describe it, and what there was to say about them."""
+
+    machine: Machine
+    findings: tuple[Finding, ...]
+
+
+_NUMBER = "kopf.achs_nr"
+
+
+class _Kind(NamedTuple):
+    """How one kind of compensation is read: its reader, and the entries whose presence means that there is a table."""
+
+    read: Callable[[CompensationList], Any]
+    tables: tuple[str, ...]
+    sizes: tuple[str, ...]
+
+
+_KINDS = {
+    "cross": _Kind(cross.read_cross, cross.TABLES, cross.SIZES),
+    "plane": _Kind(plane.read_plane, plane.TABLES, plane.SIZES),
+    "crosstalk": _Kind(crosstalk.read_crosstalk, crosstalk.TABLES, crosstalk.SIZES),
+    "leadscrew": _Kind(leadscrew.read_leadscrew, leadscrew.TABLES, leadscrew.SIZES),
+    "friction": _Kind(friction.read_friction, friction.TABLES, friction.SIZES),
+}
+
+
+def read_machine(path: str | PathLike[str], *, strict: bool = False) -> Reading:
+    """Read the lists of a machine.
+
+    Nothing in a list raises: what is wrong becomes a finding, and the controller's default is used.
+
+    Parameters
+    ----------
+    path : path
+        A start-up list, a folder with one, a folder of compensation lists, or a single compensation list. Without
+        any axis list every compensation with a plausible table acts, and all axes are translatory.
+    strict : bool
+        Raise if there is a finding of severity error.
+
+    Raises
+    ------
+    ListError
+        In strict mode, with all findings of severity error.
+    """
+    findings = Findings()
+    machine = _MachineReader(findings).read(Path(path))
+    found = findings.all()
+    errors = [finding for finding in found if finding.severity is Severity.ERROR]
+    if strict and errors:
+        raise ListError(errors)
+    return Reading(machine, found)
+
+
+def list_files(path: str | PathLike[str]) -> tuple[Path, ...]:
+    """Return the files that ``read_machine`` reads, each once, the start-up list first."""
+    reader = _MachineReader(Findings())
+    reader.read(Path(path))
+    return tuple(dict.fromkeys(reader.files.read))
+
+
+class _MachineReader:
+    """Reads axis lists, then compensation lists, then the tables: these need to know all axes."""
+
+    def __init__(self, findings: Findings) -> None:
+        self.findings = findings
+        self.files = Files(findings)
+
+    def read(self, path: Path) -> Machine:
+        """Return the machine whose lists are at a path."""
+        try:
+            lists = find_lists(path, self.files, self.findings)
+        except (OSError, ValueError) as error:
+            self.findings.add("AXC-UNREADABLE", str(path), 0, "", f"The path cannot be used: {error}.")
+            return Machine()
+        axes = Axes(self.findings, invent=not lists.has_axis_lists)
+        default = self._default_values(lists)
+        self._read_axis_lists(lists, axes, default)
+        tables = self._read_compensation_lists(lists, axes, default)
+        # Reading a table may add the axes it refers to.
+        compensations = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
+        names = axes.names()
+        return Machine(
+            tuple(
+                Axis(
+                    number=axis.number,
+                    name=names[axis.number],
+                    type=axis.type,
+                    modulo=axis.modulo,
+                    backlash_cycles=axis.backlash_cycles,
+                    **compensations.get(axis.number, {}),
+                )
+                for axis in axes.all()
+            )
+        )
+
+    def _values(self, path: Path, kind: ListKind, fallback: ListValues | None = None) -> ListValues | None:
+        """Read one list; None with a finding where there is nothing in it."""
+        text = self.files.text(path)
+        if text is None:
+            return None
+        values = read_values(text, str(path), kind, self.findings, fallback)
+        if values.looks_like is not None:
+            message = f"This looks like a list {values.looks_like.value}, not {kind.value}; it is not used."
+            self.findings.add("AXC-KIND", str(path), 0, "", message)
+        elif not values:
+            self.findings.add("AXC-EMPTY", str(path), 0, "", f"The list has no entry of a list {kind.value}.")
+        else:
+            return values
+        return None
+
+    def _default_values(self, lists: MachineFiles) -> ListValues | None:
+        return None if lists.axis_default is None else self._values(lists.axis_default, ListKind.AXIS)
+
+    def _read_axis_lists(self, lists: MachineFiles, axes: Axes, default: ListValues | None) -> None:
+        for named in lists.axis:
+            values = self._values(named.path, ListKind.AXIS, default)
+            if values is None:
+                continue
+            # The list for all axes cannot number them.
+            number = values.integer(_NUMBER) if values.given(_NUMBER) else 0
+            if not number:
+                self._note("AXC-NUMBER", values, "The list does not say which axis it is for; it is not used.")
+            elif number in axes:
+                self._note_twice(number, values)
+            else:
+                axes.add(read_axis(number, values, self.findings), *_at_number(values))
+
+    def _read_compensation_lists(
+        self, lists: MachineFiles, axes: Axes, default: ListValues | None
+    ) -> dict[int, ListValues]:
+        """Return the compensation lists by axis number; axes that no axis list describes are added."""
+        read = [(named, self._values(named.path, ListKind.COMPENSATION)) for named in lists.compensation]
+        tables: dict[int, ListValues] = {}
+        numbers = {values.integer(_NUMBER) for _, values in read if values is not None}
+        for named, values in read:
+            if values is None or not (number := self._number(named, values, axes, numbers)):
+                continue
+            if number in tables:
+                self._note_twice(number, values)
+            elif number in axes or self._add_axis(number, values, axes, default, lists):
+                tables[number] = values
+                axis = axes.get(number)
+                axis.take_name(values)
+        return tables
+
+    def _number(self, named: NamedList, values: ListValues, axes: Axes, numbers: set[int]) -> int:
+        """Return the axis a compensation list is for, 0 with a finding where that is not clear."""
+        own = values.integer(_NUMBER)
+        if own and named.log_ax_nr and own != named.log_ax_nr:
+            message = f"Axis {named.log_ax_nr} is expected, but {values.file} is for axis {own}; that list is not used."
+            self.findings.add("110229", *named.number_place, message)
+            return 0
+        if own or named.log_ax_nr:
+            return own or named.log_ax_nr
+        if not axes.invent:
+            self._note("AXC-NUMBER", values, "The list does not say which axis it is for; it is not used.")
+            return 0
+        free = next(number for number in range(1, len(numbers) + 2) if number not in numbers)
+        numbers.add(free)
+        self._note("AXC-NUMBER", values, f"The list does not say which axis it is for; {free} is used.")
+        return free
+
+    def _add_axis(
+        self, number: int, values: ListValues, axes: Axes, default: ListValues | None, lists: MachineFiles
+    ) -> bool:
+        """Add an axis that has a compensation list but no axis list."""
+        if axes.invent:
+            return axes.add(AxisSettings(number), *_at_number(values))
+        if lists.axis_default is None:
+            self._note("AXC-NO-AXIS-LIST", values, f"Axis {number} has no axis list: nothing activates this list.")
+        settings = read_axis(number, ListValues("", ListKind.AXIS, default), self.findings)
+        return axes.add(settings, *_at_number(values))
+
+    def _note(self, code: str, values: ListValues, message: str) -> None:
+        self.findings.add(code, *_at_number(values), message)
+
+    def _note_twice(self, number: int, values: ListValues) -> None:
+        message = f"Axis {number} has a list of this kind already; this one is not used."
+        self._note("AXC-NUMBER-TWICE", values, message)
+
+    def _compensations(self, axis: AxisSettings, values: ListValues | None, axes: Axes) -> dict[str, Any]:
+        """Return what acts on an axis, by kind."""
+        acting = {}
+        for kind in KINDS:
+            active = axis.activated is None or axis.activated[kind]
+            if values is not None and _is_present(values, kind):
+                source = CompensationList(values, axis, axes, self.findings)
+                compensation = _KINDS[kind].read(source)
+                if active:
+                    acting[kind] = compensation
+                elif compensation is not None:
+                    self._note_inactive(kind, source)
+            elif active and axis.activated is not None:
+                code = "70183" if kind == "plane" else "AXC-NO-TABLE"
+                message = (
+                    f"{ACTIVATION[kind]} is 1, but axis {axis.number} has no {kind} table; nothing is compensated."
+                )
+                self.findings.add(code, *axis.activated_at[kind], ACTIVATION[kind], message)
+        return acting
+
+    @staticmethod
+    def _note_inactive(kind: str, source: CompensationList) -> None:
+        name = next(name for name in _KINDS[kind].tables if source.values.cells(name))
+        message = f"There is a {kind} table, but {ACTIVATION[kind]} of axis {source.axis.number} is 0: it does not act."
+        code = "70495" if kind == "friction" else "AXC-INACTIVE"
+        source.note(code, name, message, *min(source.values.cells(name)))
+
+
+def _at_number(values: ListValues) -> tuple[str, int, str]:
+    return values.file, values.line(_NUMBER), _NUMBER
+
+
+def _is_present(values: ListValues, kind: str) -> bool:
+    """Whether a list has entries of a table, or says that there should be some."""
+    tables = any(values.cells(name) for name in _KINDS[kind].tables)
+    return tables or any(values.given(name) and values.integer(name) > 0 for name in _KINDS[kind].sizes)

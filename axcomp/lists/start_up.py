@@ -1,0 +1,154 @@
+"""Which lists make up a machine: those that a start-up list names, or those that lie in a folder."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .files import Files
+from .findings import Findings
+from .parameter import ListKind
+from .values import ListValues, read_values
+
+START_UP_NAME = "hochlauf.lis"
+
+_LISTS_MAX = 32
+
+
+@dataclass(frozen=True)
+class NamedList:
+    """A list to be read.
+
+    Attributes
+    ----------
+    path : Path
+    log_ax_nr : int
+        Logical axis number the start-up list gives it, 0 where it gives none (P-STUP-00036).
+    number_place : tuple of str, int and str
+        File, line and parameter of that number.
+    """
+
+    path: Path
+    log_ax_nr: int = 0
+    number_place: tuple[str, int, str] = ("", 0, "")
+
+
+@dataclass
+class MachineFiles:
+    """The lists of a machine.
+
+    Attributes
+    ----------
+    compensation, axis : list of NamedList
+        In their order.
+    axis_default : Path or None
+        The axis list that is read first, for all axes (P-STUP-00035).
+    start_up : ListValues or None
+        The start-up list itself, where there is one.
+    folder : Path
+        What file names are relative to.
+    """
+
+    folder: Path
+    compensation: list[NamedList] = field(default_factory=list)
+    axis: list[NamedList] = field(default_factory=list)
+    axis_default: Path | None = None
+    start_up: ListValues | None = None
+
+    @property
+    def has_axis_lists(self) -> bool:
+        """Whether axis lists decide what acts."""
+        return bool(self.axis) or self.axis_default is not None
+
+
+def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
+    """Return the lists of a machine: ``path`` is a start-up list, a folder, or a single compensation list."""
+    if path.is_dir():
+        found = _in_folder(path, START_UP_NAME)
+        if not found:
+            return _lists_of_folder(path, findings)
+        path = found[0]
+    text = files.text(path)
+    if text is None:
+        return MachineFiles(path.parent)
+    if _is_start_up(text, path):
+        return _lists_of_start_up(path, text, files, findings)
+    files.read.pop()
+    return MachineFiles(path.parent, [NamedList(path)])
+
+
+def _in_folder(folder: Path, pattern: str) -> list[Path]:
+    """Return the files of a folder that match, whatever their case, numbers in their order."""
+    try:
+        found = [entry for entry in folder.iterdir() if Path(entry.name.lower()).match(pattern)]
+    except OSError:
+        return []
+
+    def by_number(entry: Path) -> list[tuple[int, str]]:
+        return [(int(digits or 0), letters) for digits, letters in re.findall(r"([0-9]{1,9})|([^0-9]+)", entry.name)]
+
+    return sorted(found, key=by_number)
+
+
+def _lists_of_folder(folder: Path, findings: Findings) -> MachineFiles:
+    """Take all compensation and axis lists of a folder that has no start-up list."""
+    lists = MachineFiles(folder)
+    for kind, taken in ((ListKind.COMPENSATION, lists.compensation), (ListKind.AXIS, lists.axis)):
+        found = _in_folder(folder, kind.value)
+        taken.extend(map(NamedList, found[:_LISTS_MAX]))
+        if len(found) > _LISTS_MAX:
+            message = f"{len(found)} files {kind.value}: only the first {_LISTS_MAX} are read."
+            findings.add("AXC-AXES", str(folder), 0, "", message)
+    if not lists.compensation and not lists.axis:
+        message = f"The folder has neither a {START_UP_NAME} nor lists achskw*.lis."
+        findings.add("AXC-MISSING", str(folder), 0, "", message)
+    return lists
+
+
+_START_UP_ENTRY = re.compile(r"^\s*(?:zahl_kw|zahl_mds|achs_kw|achs_mds|default_achs_mds|vol_comp\s*\[)", re.I | re.M)
+
+
+def _is_start_up(text: str, path: Path) -> bool:
+    return path.name.lower() == START_UP_NAME or _START_UP_ENTRY.search(text) is not None
+
+
+def _lists_of_start_up(path: Path, text: str, files: Files, findings: Findings) -> MachineFiles:
+    values = read_values(text, str(path), ListKind.START_UP, findings)
+    lists = MachineFiles(path.parent, start_up=values)
+    if not values:
+        findings.add("AXC-EMPTY", str(path), 0, "", "The list has no entry.")
+    if values.text("default_achs_mds"):
+        place = (*values.place("default_achs_mds"), "default_achs_mds")
+        lists.axis_default = files.named(path.parent, values.text("default_achs_mds"), place)
+    lists.axis.extend(_named_lists(values, "zahl_mds", "achs_mds[i]", files, lists.folder, findings))
+    for named in _named_lists(values, "zahl_kw", "achs_kw[i]", files, lists.folder, findings):
+        lists.compensation.append(named)
+    return lists
+
+
+def _named_lists(
+    values: ListValues, count_name: str, name: str, files: Files, folder: Path, findings: Findings
+) -> Iterator[NamedList]:
+    """Yield the lists that entries below the count name; findings about missing ones and those beyond it."""
+    count = values.integer(count_name)
+    if not values.given(count_name) and values.cells(name):
+        findings.add("AXC-UNUSED", values.file, 0, count_name, f"{count_name} is missing: no {name} is used.")
+    for index in range(count):
+        parameter = name.replace("[i]", f"[{index}]")
+        if not values.text(name, index):
+            message = f"{parameter} is missing, although {count_name} is {count}."
+            findings.add("AXC-MISSING", values.file, values.line(count_name), parameter, message)
+            continue
+        place = (*values.place(name, index), parameter)
+        path = files.named(folder, values.text(name, index), place)
+        if path is not None:
+            number, numbered = f"achs_kw_log_ax_nr[{index}]", "achs_kw_log_ax_nr[i]"
+            place = (*values.place(numbered, index), number)
+            yield NamedList(path, values.integer(numbered, index) if name == "achs_kw[i]" else 0, place)
+    beyond = sorted(indices for indices in values.cells(name) if indices[0] >= count)
+    if beyond and values.given(count_name):
+        message = f"{len(beyond)} entries {name} lie beyond {count_name} = {count}; they are not used."
+        shown = name.replace("[i]", f"[{beyond[0][0]}]")
+        findings.add("AXC-UNUSED", values.file, values.line(name, *beyond[0]), shown, message)

@@ -1,0 +1,296 @@
+"""The plausible values of one list: entries looked up in the catalogue, checked, and defaults where they fail."""
+
+from __future__ import annotations
+
+import difflib
+from decimal import Context, Decimal
+from fractions import Fraction
+from functools import lru_cache
+from typing import NamedTuple
+
+from .catalogue import SPELLINGS, parameter
+from .findings import Findings
+from .grammar import Entry, entries, number, string
+from .parameter import DataType, ListKind, Parameter, Value, key_of
+
+_EXACT = Context(prec=1000)
+_SUGGESTIONS_MAX = 500
+
+Indices = tuple[int, ...]
+
+
+class Gear(NamedTuple):
+    """Path resolution of an axis: 0.1 µm (or 0.0001°) for how many increments (P-AXIS-00233, P-AXIS-00234)."""
+
+    numerator: int = 1
+    denominator: int = 1
+
+
+METRIC = Gear()
+"""Values that stand in 0.1 µm or 0.0001° already."""
+
+
+def convert(value: int | Decimal, divisor: int, gear: Gear = METRIC) -> float:
+    """Return value · gear / divisor, correctly rounded, so that what is written reads back to the same number."""
+    if isinstance(value, int):
+        return value * gear.numerator / (gear.denominator * divisor)
+    if gear == METRIC:
+        return float(value.scaleb(1 - len(str(divisor)), _EXACT))
+    return float(Fraction(value) * gear.numerator / (gear.denominator * divisor))
+
+
+def equidistant(
+    start: int | Decimal, interval: int | Decimal, count: int, divisor: int, gear: Gear = METRIC
+) -> list[float]:
+    """Return start, start + interval, … converted, each correctly rounded."""
+    if isinstance(start, int) and isinstance(interval, int):
+        return [convert(start + i * interval, divisor, gear) for i in range(count)]
+    exact_start, exact_interval = Fraction(start), Fraction(interval)
+    factor = Fraction(gear.numerator, gear.denominator * divisor)
+    return [float((exact_start + i * exact_interval) * factor) for i in range(count)]
+
+
+class _Column:
+    """All values of one parameter in one list, by their indices."""
+
+    __slots__ = ("cells", "high", "index_max", "low", "parameter", "quick")
+
+    def __init__(self, parameter: Parameter) -> None:
+        self.parameter = parameter
+        self.cells: dict[Indices, tuple[Value, int]] = {}
+        plausible = parameter.plausible
+        self.low = plausible.low + plausible.low_open
+        self.high = plausible.high - plausible.high_open
+        self.index_max = parameter.index_max
+        self.quick = parameter.type is not DataType.STRING and not parameter.values and not parameter.index_max
+
+
+class ListValues:
+    """What one list says, by parameter; where it is silent, ``fallback`` speaks, else the default.
+
+    Attributes
+    ----------
+    file : str
+        Name for findings.
+    kind : ListKind
+        What decides which parameters there are.
+    foreign : dict of ListKind to int
+        Unknown entries that another kind of list has, by that kind.
+    """
+
+    def __init__(self, file: str, kind: ListKind, fallback: ListValues | None = None) -> None:
+        self.file = file
+        self.kind = kind
+        self._fallback = fallback
+        self._columns: dict[str, _Column] = {}
+        self.foreign: dict[ListKind, int] = {}
+
+    @property
+    def looks_like(self) -> ListKind | None:
+        """Another kind of list, where only the header would make sense as this one."""
+        own = any(not key.startswith("kopf.") for key in self._columns)
+        return None if own or not self.foreign else max(self.foreign, key=self.foreign.__getitem__)
+
+    def __bool__(self) -> bool:
+        """Whether the list has an entry at all."""
+        return bool(self._columns)
+
+    def column(self, parameter: Parameter) -> _Column:
+        """Return the values of a parameter, to be filled."""
+        return self._columns.setdefault(parameter.key, _Column(parameter))
+
+    def cells(self, name: str) -> dict[Indices, tuple[Value, int]]:
+        """Return indices → (value, line) of all that is given for a parameter."""
+        column = self._columns.get(key_of(name))
+        return {} if column is None else column.cells
+
+    def given(self, name: str, *indices: int) -> bool:
+        """Whether an entry is there."""
+        return indices in self.cells(name)
+
+    def place(self, name: str, *indices: int) -> tuple[str, int]:
+        """Return file and line of an entry, line 0 where it is missing."""
+        cell = self.cells(name).get(indices)
+        if cell is not None:
+            return self.file, cell[1]
+        return (self.file, 0) if self._fallback is None else self._fallback.place(name, *indices)
+
+    def line(self, name: str, *indices: int) -> int:
+        """Return the line of an entry, 0 where it is missing."""
+        return self.place(name, *indices)[1]
+
+    def value(self, name: str, *indices: int) -> Value:
+        """Return a plausible value as it stands in the list."""
+        cell = self.cells(name).get(indices)
+        if cell is not None:
+            return cell[0]
+        return parameter(self.kind, name).default if self._fallback is None else self._fallback.value(name, *indices)
+
+    def number(self, name: str, *indices: int) -> int | Decimal:
+        """Return a number in the unit of the list."""
+        value = self.value(name, *indices)
+        return value if isinstance(value, Decimal) else int(value)
+
+    def integer(self, name: str, *indices: int) -> int:
+        """Return a count, index, axis number or number of cycles."""
+        return int(self.value(name, *indices))
+
+    def flag(self, name: str) -> bool:
+        """Return a Boolean."""
+        return bool(self.value(name))
+
+    def text(self, name: str, *indices: int) -> str:
+        """Return a string, "" where there is none."""
+        return str(self.value(name, *indices))
+
+    def converted(self, name: str, *indices: int, gear: Gear = METRIC) -> float:
+        """Return a number in mm, °, mm/s, °/s or as a factor."""
+        return convert(self.number(name, *indices), parameter(self.kind, name).quantity.divisor, gear)
+
+
+def read_values(
+    text: str, file: str, kind: ListKind, findings: Findings, fallback: ListValues | None = None
+) -> ListValues:
+    """Return the plausible values of a list; what is not plausible is noted and replaced by its default."""
+    values = ListValues(file, kind, fallback)
+    reader = _ValueReader(values, findings)
+    columns: dict[str, _Column | None] = {}
+    for entry in entries(text, reader.report):
+        key, indices, integer, _, line = entry
+        try:
+            column = columns[key]
+        except KeyError:
+            column = columns[key] = reader.column(entry)
+        if column is None:
+            reader.report_unknown(entry)
+        elif integer and column.quick:
+            # Nearly every line of a long table goes this way: an integer, checked and kept.
+            value = int(integer)
+            if indices not in column.cells and column.low <= value <= column.high:
+                column.cells[indices] = (value, line)
+            else:
+                reader.take(column, entry)
+        else:
+            reader.take(column, entry)
+    return values
+
+
+class _ValueReader:
+    """Looks entries up and checks their values, away from the fast path."""
+
+    def __init__(self, values: ListValues, findings: Findings) -> None:
+        self._values = values
+        self._findings = findings
+        self._unknown: dict[str, str] = {}
+
+    def report(self, code: str, line: int, text: str) -> None:
+        """Note a line that is no entry."""
+        shown = text if len(text) <= 40 else f"{text[:40]}…"
+        sentence = {
+            "AXC-ELISION": f"“{shown}” stands for entries left out; nothing is taken for it.",
+            "AXC-END": "Nothing after End is read.",
+        }.get(code, f"“{shown}” is neither an entry nor a comment; it is not taken.")
+        self._findings.add(code, self._values.file, line, "", sentence)
+
+    def column(self, entry: Entry) -> _Column | None:
+        """Return where an entry's values go, None if the list has no such parameter."""
+        key = entry.key.lower()
+        spelling = SPELLINGS[self._values.kind].get(key)
+        if spelling is None:
+            self._count_foreign(key)
+            few = len(self._unknown) < _SUGGESTIONS_MAX
+            self._unknown[entry.key] = _similar(self._values.kind, key) if few else ""
+            return None
+        if spelling.typo:
+            right = spelling.parameter.name
+            self._note("AXC-TYPO", entry, f"{entry.key} is read as {right}, which is the usual spelling.")
+        return self._values.column(spelling.parameter)
+
+    def _count_foreign(self, key: str) -> None:
+        for kind, spellings in SPELLINGS.items():
+            if key in spellings:
+                self._values.foreign[kind] = self._values.foreign.get(kind, 0) + 1
+
+    def report_unknown(self, entry: Entry) -> None:
+        """Note an entry that is not in the catalogue; one that looks like a slip is not lost among strangers."""
+        similar = self._unknown[entry.key]
+        hint = f"; {similar} may be meant" if similar else ""
+        message = f"{entry.name} is not known in this list{hint}; it is not taken."
+        self._note("AXC-UNKNOWN", entry, message, "similar to known ones" if similar else "")
+
+    def take(self, column: _Column, entry: Entry) -> None:
+        """Check an entry and keep its value, or the default instead."""
+        for index, limit in zip(entry.indices, column.index_max, strict=False):
+            if index > limit:
+                self._note("AXC-INDEX", entry, f"{entry.name}: the index goes to {limit} only; it is not taken.")
+                return
+        if entry.indices in column.cells:
+            line = column.cells[entry.indices][1]
+            self._note("AXC-TWICE", entry, f"{entry.name} already stands in line {line}; the later one counts.")
+        column.cells[entry.indices] = (self._plausible(column.parameter, entry), entry.line)
+
+    def _plausible(self, parameter: Parameter, entry: Entry) -> Value:
+        if not entry.text.strip():
+            return self._default(parameter, entry, "AXC-VALUE", "has no value")
+        if parameter.type is DataType.STRING:
+            return self._string(parameter, entry)
+        value = _number(parameter, entry.word)
+        if value is None:
+            kind = "is neither 0 nor 1" if parameter.type is DataType.BOOLEAN else "is no number"
+            return self._default(parameter, entry, "AXC-VALUE", f"= {_short(entry.word)} {kind}")
+        if parameter.values and value not in parameter.values:
+            allowed = ", ".join(map(str, parameter.values))
+            return self._default(parameter, entry, parameter.code, f"= {_short(entry.word)} is none of {allowed}")
+        if value not in parameter.tolerable:
+            bounds = parameter.tolerable if parameter.usable else parameter.plausible
+            return self._default(parameter, entry, parameter.code, f"= {_short(entry.word)} is not {bounds.words}")
+        if isinstance(value, Decimal) and parameter.quantity.whole:
+            return self._default(parameter, entry, "AXC-VALUE", f"= {_short(entry.word)} is not a whole number")
+        if value not in parameter.plausible:
+            words = parameter.plausible.words
+            self._note("AXC-OUTSIDE", entry, f"{entry.name} = {_short(entry.word)} is not {words}; it is used.")
+        return value
+
+    def _string(self, parameter: Parameter, entry: Entry) -> Value:
+        found = string(entry.text)
+        if found.fault:
+            self._note("AXC-STRING", entry, f"{entry.name}: {found.fault}; “{_short(found.value)}” is used.")
+        if parameter.values:
+            value = found.value.upper()
+            if value in parameter.values:
+                return value
+            allowed = " or ".join(map(str, parameter.values))
+            return self._default(parameter, entry, parameter.code, f"= {_short(found.value)} is not {allowed}")
+        if 0 < parameter.length < len(found.value):
+            message = f"{entry.name} has more than {parameter.length} characters; it is used."
+            self._note("AXC-OUTSIDE", entry, message)
+        return found.value
+
+    def _default(self, parameter: Parameter, entry: Entry, code: str, fault: str) -> Value:
+        instead = parameter.default if parameter.default != "" else "nothing"
+        self._note(code, entry, f"{entry.name} {fault}; {instead} is used.")
+        return parameter.default
+
+    def _note(self, code: str, entry: Entry, message: str, group: str | None = None) -> None:
+        self._findings.add(code, self._values.file, entry.line, entry.name, message, group)
+
+
+def _number(parameter: Parameter, word: str) -> int | Decimal | None:
+    capitals = word.upper()
+    if parameter.type is DataType.BOOLEAN:
+        value = {"TRUE": 1, "FALSE": 0}.get(capitals, number(word))
+        return value if value in (0, 1) else None
+    return parameter.names.get(capitals, number(word))
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:40]}…"
+
+
+@lru_cache(maxsize=4096)
+def _similar(kind: ListKind, key: str) -> str:
+    """Return the name of the parameter that an unknown one resembles, "" if none does."""
+    if len(key) > 80:
+        return ""
+    found = difflib.get_close_matches(key, SPELLINGS[kind], 1, 0.85)
+    return SPELLINGS[kind][found[0]].parameter.name if found else ""

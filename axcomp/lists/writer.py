@@ -1,0 +1,121 @@
+"""A ``Machine`` as a complete set of lists; reading them gives the same machine."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+
+from ..machine import AXES_MAX, Axis, Machine
+from .axes import ACTIVATION
+from .cross import format_cross
+from .crosstalk import format_crosstalk
+from .format import Lines
+from .friction import format_friction
+from .leadscrew import format_leadscrew
+from .parameter import ListKind
+from .plane import format_plane
+from .start_up import START_UP_NAME
+
+_MODULO_MODE = 0x4
+
+
+def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
+    """Write the start-up list and, for each axis, its axis list and (where it needs one) its compensation list.
+
+    Returns
+    -------
+    list of Path
+        The files, the start-up list first.
+
+    Raises
+    ------
+    ValueError
+        If a list cannot hold a value, or the machine has more axes than a start-up list names; no file is written.
+    OSError
+        If the folder cannot be written to.
+    """
+    texts = {START_UP_NAME: format_start_up_list(machine)}
+    for axis in machine.axes:
+        texts[_axis_file(axis)] = format_axis_list(axis)
+        if _is_compensated(axis):
+            texts[_compensation_file(axis)] = format_compensation_list(axis)
+    data = {name: text.encode() for name, text in texts.items()}
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in data.items():
+        (folder / name).write_bytes(content)
+    return [folder / name for name in data]
+
+
+def format_start_up_list(machine: Machine) -> str:
+    """Return the text of ``hochlauf.lis``."""
+    if len(machine.axes) > AXES_MAX:
+        raise ValueError(f"{len(machine.axes)} axes: a start-up list names at most {AXES_MAX}")
+    lines = Lines(ListKind.START_UP)
+    lines.heading("Axis lists")
+    lines.add("zahl_mds", len(machine.axes))
+    for i, axis in enumerate(machine.axes):
+        lines.add("achs_mds[i]", _axis_file(axis), i)
+    lines.heading("Compensation value lists")
+    compensated = [axis for axis in machine.axes if _is_compensated(axis)]
+    lines.add("zahl_kw", len(compensated))
+    for i, axis in enumerate(compensated):
+        lines.add("achs_kw[i]", _compensation_file(axis), i)
+        lines.add("achs_kw_log_ax_nr[i]", axis.number, i)
+    return lines.text()
+
+
+def format_axis_list(axis: Axis) -> str:
+    """Return the text of an axis list (``achsmd*.lis``)."""
+    lines = Lines(ListKind.AXIS)
+    _format_header(axis, lines)
+    lines.heading("Axis type and compensations")
+    lines.add("kenngr.achs_typ", axis.type.value)
+    if axis.modulo is not None:
+        lines.add("kenngr.achs_mode", _MODULO_MODE)
+        lines.add_converted("getriebe[i].modulou", axis.modulo.start, 0)
+        lines.add_converted("getriebe[i].moduloo", axis.modulo.end, 0)
+    for kind, name in ACTIVATION.items():
+        lines.add(name, getattr(axis, kind) is not None)
+    lines.add("lr_param.n_backlash_cyc", axis.backlash_cycles)
+    return lines.text()
+
+
+def format_compensation_list(axis: Axis) -> str:
+    """Return the text of a compensation value list (``achskw*.lis``)."""
+    lines = Lines(ListKind.COMPENSATION)
+    _format_header(axis, lines)
+    if axis.cross is not None:
+        lines.heading("Cross compensation")
+        format_cross(axis.cross, lines)
+    if axis.plane is not None:
+        lines.heading("Plane compensation")
+        format_plane(axis.plane, lines)
+    if axis.crosstalk is not None:
+        lines.heading("Crosstalk compensation")
+        format_crosstalk(axis.crosstalk, lines)
+    if axis.leadscrew is not None:
+        lines.heading("Leadscrew error compensation")
+        format_leadscrew(axis.leadscrew, lines)
+    if axis.friction is not None:
+        lines.heading("Friction compensation")
+        format_friction(axis.friction, lines)
+    return lines.text()
+
+
+def _format_header(axis: Axis, lines: Lines) -> None:
+    lines.heading(f"Axis {axis.number}")
+    lines.add("kopf.achs_nr", axis.number)
+    lines.add("kopf.log_achs_name", axis.name)
+
+
+def _is_compensated(axis: Axis) -> bool:
+    return any(True for _ in axis.compensations())
+
+
+def _axis_file(axis: Axis) -> str:
+    return f"achsmd{axis.number}.lis"
+
+
+def _compensation_file(axis: Axis) -> str:
+    return f"achskw{axis.number}.lis"
