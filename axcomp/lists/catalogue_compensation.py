@@ -161,7 +161,7 @@ _LEADSCREW = (
         _all("00018"),
         _POSITION,
         "[0, MAX)",
-        aliases=("kw.ssfk.intervall",),
+        typos=("kw.ssfk.intervall",),
     ),
     Parameter("kw.ssfk.kw_startpos", "First position", _SGN32, 0, _all("00019"), _POSITION, _BELOW_MAX),
     Parameter("kw.ssfk.kw_nr_max", "Number of entries", _SGN32, 0, _all("00020"), range="[0, MAX]"),

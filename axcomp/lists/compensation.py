@@ -33,7 +33,13 @@ class CompensationList:
     def note(self, code: str, name: str, message: str, *indices: int) -> None:
         """Note a finding at an entry of this list."""
         shown = parameter(ListKind.COMPENSATION, name).named(*indices) if indices else name
-        self._findings.add(code, self.values.file, self.values.line(name, *indices), shown, message)
+        self._findings.add(code, self.values.file, self._line(name, indices), shown, message)
+
+    def _line(self, name: str, indices: Indices) -> int:
+        """Return the line of an entry, or of the one before it in the table where it is missing."""
+        cells = self.values.cells(name)
+        before = [given for given in cells if given <= indices]
+        return cells[max(before)][1] if before else 0
 
     def axis_of(self, name: str, purpose: str, code: str = "AXC-MASTER") -> AxisSettings | None:
         """Return the axis whose number an entry gives; a finding and None if there is none."""
@@ -104,7 +110,7 @@ class CompensationList:
         for missing, run in groupby(enumerate(used), lambda numbered: numbered[1] not in cells):
             if missing:
                 (place, first), *others = run
-                line = self.values.line(name, *used[place - 1]) if place else self.first_line(name)
+                line = cells[used[place - 1]][1] if place else self.first_line(name)
                 what = f"{row.named(*first)} … {row.named(*others[-1][1])} are" if others else f"{row.named(*first)} is"
                 message = f"{what} missing; 0 is used."
                 self._findings.add("AXC-GAP", self.values.file, line, row.named(*first), message)

@@ -1,0 +1,7 @@
+"""``python -m axcomp.cli`` is ``axcomp``."""
+
+import sys
+
+from . import main
+
+sys.exit(main())
