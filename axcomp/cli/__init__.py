@@ -8,9 +8,9 @@ import os
 import sys
 from collections.abc import Sequence
 
-from . import check, parameters
+from . import check, measure, parameters
 
-COMMANDS = (check, parameters)
+COMMANDS = (check, parameters, measure)
 """Each module has ``add_subparser(subparsers)``; it sets ``do``, a function of the options that returns the status."""
 
 
@@ -33,6 +33,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except KeyboardInterrupt:
         return 130
+    except ModuleNotFoundError as error:
+        print(f"axcomp: {error.name} is missing; pip install 'axcomp[workbench]' installs it.", file=sys.stderr)
+        return 1
     except (OSError, ValueError) as error:
         print(f"axcomp: {error}", file=sys.stderr)
         return 1

@@ -1,9 +1,9 @@
 """Measurements as text tables: named columns with units, and errors that say in which line they are.
 
-Cells are separated by semicolons, tabs, commas or blanks; ``#`` and ``//`` begin a comment. The first row names the
-columns, in any order, each with its unit if that is not the usual one: ``deviation [mm]``, ``deviation (mm)`` or
-``deviation_mm``. Without such a row the columns are those asked for, in that order. Where commas do not separate cells,
-they may stand for the decimal point. Comments of the form ``# axis: X`` are kept as details.
+Cells are separated by semicolons, tabs, commas or blanks; ``#`` and ``//`` begin a comment. The first row, if there is
+no number in it, names the columns, in any order, each with its unit if that is not the usual one: ``deviation [mm]``,
+``deviation (mm)`` or ``deviation_mm``. Without such a row the columns are those asked for, in that order. Where commas
+do not separate cells, they may stand for the decimal point. Comments of the form ``# axis: X`` are kept as details.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ def read_columns(path: Path, wanted: Sequence[Column]) -> Columns:
         if names is None:
             separator = next((s for s in ";\t," if s in content), None)
             cells = _cells(content, separator)
-            if any(_is_name(cell) for cell in cells):
+            if all(_number(cell) is None for cell in cells):
                 names = _header(file, line, cells, wanted)
                 continue
             names = _header(file, line, [column.name for column in wanted if not column.optional], wanted)
@@ -157,10 +157,6 @@ def _cells(content: str, separator: str | None) -> list[str]:
     if separator is not None and not cells[-1]:
         cells.pop()
     return cells if separator == "," else [cell.replace(",", ".") for cell in cells]
-
-
-def _is_name(cell: str) -> bool:
-    return cell[:1].isalpha() and cell.lower() not in _DIRECTIONS and _number(cell) is None
 
 
 def _number(cell: str) -> float | None:

@@ -65,7 +65,7 @@ class Iso230Result:
     A, A_up, A_down, R, R_up, R_down, E, E_up, E_down, M, B, B_mean : float
         Figures of the axis; NaN where the readings do not suffice.
     uncertainty : mapping of str to float
-        Expanded uncertainty (k = 2) of the figures, by name; empty where the conditions of the test were not given.
+        Expanded uncertainty (k = 2) of the figures by ``uncertainty.Conditions``, by name; empty without conditions.
     readings : Positioning
         What was evaluated.
     notes : tuple of str
@@ -110,7 +110,7 @@ class Iso230Result:
 
     def table(self) -> pd.DataFrame:
         """Return the figures of each target as a data frame, one row a target, symbols of the standard as columns."""
-        import pandas as pd
+        import pandas as pd  # noqa: PLC0415 - of the extra "workbench"
 
         return pd.DataFrame(
             {
@@ -133,8 +133,8 @@ class Iso230Result:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything for JSON; None stands for what is not available."""
-        columns = ("mean_up", "mean_down", "mean", "s_up", "s_down", "reversal")
-        columns += ("repeatability_up", "repeatability_down", "repeatability")
+        columns = ["mean_up", "mean_down", "mean", "s_up", "s_down", "reversal"]
+        columns += ["repeatability_up", "repeatability_down", "repeatability"]
         return {
             "axis": self.axis,
             "source": self.source,
@@ -157,7 +157,7 @@ class Iso230Result:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
-        from .iso230_plot import plot
+        from .iso230_plot import plot  # noqa: PLC0415 - Matplotlib takes long to load
 
         return plot(self, ax)
 
@@ -177,7 +177,14 @@ def evaluate(measurement: Positioning, conditions: Conditions | None = None) -> 
         Any number of runs; targets may be missing in some.
     conditions : Conditions, optional
         Of the test; with them the result has expanded uncertainties.
+
+    Raises
+    ------
+    ValueError
+        Conditions were given for a rotary axis.
     """
+    if conditions is not None and measurement.unit != "mm":
+        raise ValueError("conditions of a test, and uncertainties from them, are for linear axes only")
     positions, _, deviations = measurement.grid()
     counts = np.sum(~np.isnan(deviations), axis=2)
     means = _mean(deviations, counts)

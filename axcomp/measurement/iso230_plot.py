@@ -6,13 +6,13 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 
+from .iso230 import SYMBOLS, Iso230Result
 from .motion import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from .iso230 import Iso230Result
 
 UP, DOWN = "#0b62a4", "#c4511a"
 """Colours of motion in positive and in negative direction."""
@@ -20,11 +20,7 @@ UP, DOWN = "#0b62a4", "#c4511a"
 
 def plot(result: Iso230Result, ax: Axes | None = None) -> Axes:
     """Draw a result into ``ax``, or into a new figure; return the axes."""
-    from .iso230 import SYMBOLS
-
     if ax is None:
-        from matplotlib.figure import Figure
-
         ax = Figure(figsize=(10.0, 5.6), dpi=120, layout="constrained").add_subplot()
     readings = result.readings
     sides = ((UP, 1, "↑", result.mean_up, result.s_up), (DOWN, -1, "↓", result.mean_down, result.s_down))

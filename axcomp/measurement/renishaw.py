@@ -1,9 +1,9 @@
 """Linear measurements in Renishaw's ``.rtl`` files.
 
-Plain text in sections that begin with ``NAME::`` and end with ``EOF::``. ``TARGET DATA`` holds ``Target-count`` and, behind
-``Targets :``, the targets in mm, some to a line, up to ``Flags:``; ``RUNS`` the ``Run-count``; ``DEVIATIONS`` behind ``Run
-Target Data:`` one line for each reading: number of the run, number of the target counted from 1, deviation in µm.
-``USER-TEXT`` says machine, axis, date and so on.
+Plain text in sections that begin with ``NAME::``, ``EOF::`` is the last. ``TARGET DATA`` holds ``Target-count`` and,
+behind ``Targets :``, the targets in mm, some to a line, up to ``Flags:``; ``RUNS`` the ``Run-count``; ``DEVIATIONS``,
+behind ``Run Target Data:``, one line for each reading: the run, the number of the target counted from 1, the deviation
+in µm. ``USER-TEXT`` says machine, axis, date and so on.
 
 A bidirectional measurement goes there in one run and back in the next. The direction of a run is that in which its
 targets are listed; the runs of either direction are counted from 1.

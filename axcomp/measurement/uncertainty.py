@@ -1,16 +1,16 @@
 """Measurement uncertainty of a positioning test, expanded with k = 2.
 
 The contributions are those of ISO 230-2:2014, Annex A. Where only bounds of an influence are known it is uniformly
-distributed between them, so a range R contributes ``U = 2 · R / √12 = R/√3`` (the annex rounds 1/√3 to 0,6). With the travel L::
+distributed between them: a range R contributes ``U = 2 · R / √12 = R/√3`` (JCGM 100:2008, 4.3.7). With the travel L::
 
     U_DEVICE       = device · L                           calibration of the instrument, stated with k = 2
     U_MISALIGNMENT = misalignment² / (2 √3 L)             the cosine error is between 0 and misalignment² / 2L
     U_M            = α · L · temperature_range / √3       the temperature of the machine is known within this range
-    U_E            = α_range · L · |ΔT| / √3              the expansion coefficient is known within α_range, ΔT from 20 °C
+    U_E            = α_range · L · |ΔT| / √3              α is known within this range, ΔT from 20 °C
     U_EVE          = drift / √3                           range of the readings of an axis at rest during the test
 
-The first four, ``U_L`` together, act on every length alike. Drift acts on every reading by itself. Propagated by JCGM 100:2008,
-5.1, with n runs in each direction (a mean has U_EVE/√n, a difference of two such means √2 as much)::
+The first four, ``U_L`` together, act on every length alike; drift acts on every reading by itself. Propagated by JCGM
+100:2008, 5.1, with n runs in each direction (a mean has U_EVE/√n, a difference of two such means √2 as much)::
 
     U(B) = U(B̄) = √(2/n) U_EVE                            U(M)² = U_L² + 1/n U_EVE²
     U(E)² = U(E↑)² = U_L² + 2/n U_EVE²                    U(R↑) = 2 U_EVE: what drift alone would show as 4 s

@@ -1,0 +1,127 @@
+"""``axcomp measure``: positioning measurements evaluated by ISO 230-2."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+
+from ..measurement.columns import MeasurementError
+from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
+from ..measurement.positioning import Positioning, joined, read_positioning
+from ..measurement.uncertainty import Conditions
+from .check import STATUS_MAX
+
+_EPILOG = """\
+A table has the columns target, run, direction, deviation (mm and µm unless the first row says otherwise:
+"deviation [mm]"), separated by commas, semicolons, tabs or blanks; direction is + or -.
+
+examples:
+  axcomp measure x.rtl
+  axcomp measure x.csv --plot x.png --device 0.5 --drift 0.8
+  axcomp measure x_before.csv x_after.csv --format json
+"""
+
+_CONDITIONS = {
+    "device": ("µm/m", "expanded uncertainty (k = 2) of the instrument"),
+    "misalignment": ("mm", "how far instrument and axis may be out of line over the travel"),
+    "temperature-range": ("K", "range within which the machine's temperature is known"),
+    "temperature-offset": ("K", "machine's temperature minus 20 °C"),
+    "expansion": ("1e-6/K", "expansion coefficient of the machine's scale"),
+    "expansion-range": ("1e-6/K", "range within which that is known"),
+    "drift": ("µm", "environmental variation error E_VE: range of readings at rest"),
+}
+
+
+def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command."""
+    parser = subparsers.add_parser(
+        "measure",
+        help="evaluate positioning measurements by ISO 230-2",
+        description="Evaluates positioning measurements by ISO 230-2: accuracy, repeatability, reversal.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="Renishaw .rtl, or a table as text")
+    parser.add_argument("--together", action="store_true", help="the files are runs of one measurement")
+    parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draw means, ±2s bands and readings")
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
+    conditions = parser.add_argument_group("conditions of the test, for expanded uncertainties (k = 2); linear axes")
+    for name, (unit, meaning) in _CONDITIONS.items():
+        conditions.add_argument(f"--{name}", type=float, metavar=unit, help=meaning)
+    parser.set_defaults(do=_do_measure)
+
+
+def _do_measure(args: argparse.Namespace) -> int:
+    measurements: list[Positioning] = []
+    errors = 0
+    for path in args.files:
+        try:
+            measurements.append(read_positioning(path))
+        except MeasurementError as error:
+            print(error, file=sys.stderr)
+            errors += 1
+    results: list[Iso230Result] = []
+    try:
+        conditions = _conditions(args)
+        if args.together and measurements:
+            measurements = [joined(measurements)]
+        results = [evaluate(measurement, conditions) for measurement in measurements]
+        if args.plot is not None and results:
+            _plot(results, args.plot)
+    except (MeasurementError, ValueError, OSError) as error:
+        print(f"axcomp measure: {error}", file=sys.stderr)
+        errors += 1
+    if args.format == "json":
+        print(json.dumps([result.to_dict() for result in results], indent=2, ensure_ascii=False))
+    else:
+        for result in results:
+            _print(result)
+    return min(errors, STATUS_MAX)
+
+
+def _conditions(args: argparse.Namespace) -> Conditions | None:
+    """Return the conditions that were given, None if none was."""
+    names = [name.replace("-", "_") for name in _CONDITIONS]
+    given = {name: getattr(args, name) for name in names if getattr(args, name) is not None}
+    return Conditions(**given) if given else None
+
+
+def _plot(results: list[Iso230Result], file: Path) -> None:
+    from matplotlib.figure import Figure  # noqa: PLC0415 - takes long to load
+
+    drawing = Figure(figsize=(10.0, 5.6 * len(results)), dpi=120, layout="constrained")
+    for place, result in enumerate(results, 1):
+        ax = drawing.add_subplot(len(results), 1, place)
+        result.plot(ax)
+        if len(results) > 1:
+            ax.set_title(f"{Path(result.source).name}\n{ax.get_title()}", fontsize=12)
+    drawing.savefig(file)
+
+
+def _print(result: Iso230Result) -> None:
+    from ..measurement.terminal import console, figure, table  # noqa: PLC0415 - Rich is of the extra "workbench"
+
+    out = console()
+    frame = result.table()
+    rows = [
+        [
+            f"{position:g}",
+            *(figure(float(v), 0 if str(name).startswith("n") else 2) for name, v in zip(frame, row, strict=True)),
+        ]
+        for position, row in zip(result.positions, frame.to_numpy(), strict=True)
+    ]
+    header = [f"target [{'mm' if result.position_unit == 'mm' else '°'}]", *map(str, frame)]
+    axis = f", axis {result.axis}" if result.axis else ""
+    out.print(table(f"{result.source}{axis}: by target, in {result.unit}", header, rows))
+    figures = [
+        [SYMBOLS[name], figure(value), figure(result.uncertainty.get(name, math.nan))]
+        for name, value in result.parameters().items()
+    ]
+    out.print(table("ISO 230-2:2014", ["", result.unit, "U (k = 2)"], figures))
+    for note in result.notes:
+        out.print(f"Note: {note}")
+    if result.notes:
+        out.print()
