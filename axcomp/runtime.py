@@ -62,7 +62,7 @@ class Runtime:
     def __init__(self, machine: Machine, cycle_time: float = CYCLE_TIME) -> None:
         self.machine = machine
         self.tables = compile_tables(machine, cycle_time)
-        self._identity = identity_of(self.tables)
+        self._identity: int | None = None
         self.inputs = initial_inputs(self.tables)
         self.state = zero(State)
         self.outputs = zero(Outputs)
@@ -92,7 +92,7 @@ class Runtime:
     def save(self) -> bytes:
         """Return a snapshot of everything that changes: state, inputs, outputs and the clock."""
         clock = [self.start_time, float(self.cycles)]
-        return pack(self._identity, self.state, self.inputs, self.outputs, clock)
+        return pack(self._machine_identity(), self.state, self.inputs, self.outputs, clock)
 
     def restore(self, data: bytes) -> None:
         """Go back to a snapshot of this machine; SnapshotError if it is none, and nothing has changed then.
@@ -100,9 +100,14 @@ class Runtime:
         The machine is the one in force: a snapshot from before an ``update`` belongs to another one.
         """
         clock = [0.0, 0.0]
-        unpack(data, self._identity, self.state, self.inputs, self.outputs, clock)
+        unpack(data, self._machine_identity(), self.state, self.inputs, self.outputs, clock)
         self.start_time = clock[0]
         self.cycles = int(clock[1])
+
+    def _machine_identity(self) -> int:
+        if self._identity is None:
+            self._identity = identity_of(self.tables)
+        return self._identity
 
     def notices(self) -> Iterator[str]:
         """Yield, once each, what the machine's user should know about the motion so far."""
@@ -142,7 +147,7 @@ class Runtime:
         tables = compile_tables(machine, self.tables.cycle_time)
         adopt(self.tables, tables, self.state, self.outputs)
         self.machine, self.tables = machine, tables
-        self._identity = identity_of(tables)
+        self._identity = None
         for axis, state, outputs in zip(machine.axes, self.state.axis, self.outputs.axis, strict=True):
             state.error = outputs.error = errors.get(axis.name, 0)
         return errors

@@ -16,6 +16,8 @@ Vec = list[float]
 
 Record = TypeVar("Record")
 
+_NUMBERS = (float, int, bool)
+
 
 def whole(x: float) -> float:
     """Return the largest whole number not above ``x``, as a float; in C ``floor(x) + 0.0`` (never −0)."""
@@ -41,8 +43,9 @@ def fields_of(cls: Hashable) -> dict[str, Any]:
 def _zero_of(hint: Any) -> Any:
     if get_origin(hint) is Annotated:
         element = get_args(get_args(hint)[0])[0]
-        return [_zero_of(element) for _ in range(hint.__metadata__[0])]
-    if hint in (float, int, bool):
+        length = hint.__metadata__[0]
+        return [element()] * length if element in _NUMBERS else [_zero_of(element) for _ in range(length)]
+    if hint in _NUMBERS:
         return hint()
     if hint == Vec:
         return []
