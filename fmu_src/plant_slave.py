@@ -99,7 +99,7 @@ class PlantSlave(Fmi2Slave):
         """Do something; what goes wrong is reported and the outputs stay: a second exception would end the host."""
         try:
             work(*arguments)
-        except Exception as error:  # noqa: BLE001
+        except Exception as error:
             message = f"{type(error).__name__}: {error}".replace("%", "percent")
             self.log(message, Fmi2Status.error)
             print(f"{self.instance_name}: {message}", file=sys.stderr)

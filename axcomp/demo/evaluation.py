@@ -9,7 +9,7 @@ import numpy as np
 
 from ..machine import Machine
 from ..measurement.motion import Array
-from .trials import Trial, name_of
+from .trials import Cycles, Trial, name_of
 
 MILLI = 1e3
 BEFORE, AFTER = 10, 120
@@ -45,7 +45,7 @@ class Outcome:
     trial: Trial
     axis: str
     unit: str
-    cycles: Array
+    cycles: Cycles
     without: Array
     compensated: Array
     following_error: float

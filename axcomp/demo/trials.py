@@ -19,7 +19,7 @@ from ..measurement.motion import Array, Course, Limits, Setpoints, move
 
 Cycles = npt.NDArray[np.intp]
 
-STOPS = 16
+STOPS = 12
 SETTLING = 0.06
 """Standing still before a position is read, s."""
 APPROACH = 1.0
@@ -61,10 +61,11 @@ class Trial:
         return KINDS if self.kind == "all" else (self.kind,)
 
     def place(self, axis: str) -> Array:
-        """Return where an axis should be at the end of each cycle, shape (cycles,): the raw setpoint, ``LATENCY`` late."""
+        """Return where an axis should be at the end of each cycle, shape (cycles,): its raw setpoint, delayed."""
         raw = self.setpoints[axis].position
         late = np.concatenate([np.repeat(raw[:1], LATENCY), raw])
-        return 0.5 * (late[: len(raw)] + late[1 : len(raw) + 1])
+        place: Array = 0.5 * (late[: len(raw)] + late[1 : len(raw) + 1])
+        return place
 
 
 def trials_of(machine: Machine, cycle_time: float) -> list[Trial]:
@@ -90,6 +91,10 @@ class Stage:
         self.names = {axis.number: name_of(axis) for axis in machine.axes}
         self.spans = {name_of(axis): self._span(axis) for axis in machine.axes}
         self.middle = {name: 0.5 * (low + high) for name, (low, high) in self.spans.items()}
+
+    def axis(self, name: str) -> Axis:
+        """Return an axis by its name in the FMUs' variables."""
+        return next(axis for axis in self.machine.axes if name_of(axis) == name)
 
     def positioning(self) -> Iterator[Trial]:
         """All axes along the diagonal of the working space, forth and back: once for the leadscrews, once for all."""

@@ -48,7 +48,7 @@ class Setpoints:
 
 
 def move(start: float, end: float, cycle_time: float, limits: Limits) -> Array:
-    """Return the positions of a move from rest to rest, shape (cycles,): from the first one after ``start`` to ``end``."""
+    """Return the positions of a move from rest to rest, shape (cycles,), the last of them ``end``."""
     length = end - start
     if length == 0.0:
         return np.empty(0)

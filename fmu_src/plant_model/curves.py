@@ -19,8 +19,8 @@ class Curve:
     Attributes
     ----------
     description : Mapping
-        ``origin`` (0), ``scale`` (1), ``polynomial`` ([]), ``waves`` ([]), the latter with ``amplitude``, ``period`` and
-        ``phase`` (0, in °) each; positions in mm or °.
+        ``origin`` (0), ``scale`` (1), ``polynomial`` ([]) and ``waves`` ([]), each of these with ``amplitude``,
+        ``period`` and ``phase`` (0, in °); positions in mm or °.
     """
 
     def __init__(self, description: Mapping[str, Any]) -> None:

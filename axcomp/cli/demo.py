@@ -1,0 +1,57 @@
+"""``axcomp demo``: both FMUs coupled, the errors of the machine without and with compensation."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from ..compile import CYCLE_TIME
+from ..places import models
+
+PICTURE = "demo.png"
+
+EXAMPLE = """\
+Geometric errors are read where the axes stand, crosstalk while the other axis accelerates, friction at the reversals
+of a circle; *without* is with that one compensation off. What an FMU puts out reaches the other one communication step
+later: this delay is inherent to co-simulation, and in the errors shown.
+
+examples:
+  axcomp demo
+  axcomp demo --machine models/rotary_table --output /tmp/demo
+"""
+
+
+def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the sub-command."""
+    parser = subparsers.add_parser(
+        "demo",
+        help="couple compensation and plant, and show what is left of the errors",
+        description="Build axcomp.fmu and plant.fmu, couple them in FMPy, and compare the errors of the machine "
+        "without and with compensation, in a table and a picture.",
+        epilog=EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--machine", type=Path, metavar="PATH", help="hochlauf.lis or its folder, with a plant.json beside it"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=Path(), metavar="DIR", help=f"for the FMUs and {PICTURE} (default: here)"
+    )
+    parser.set_defaults(do=_do_demo)
+
+
+def _do_demo(args: argparse.Namespace) -> int:
+    from ..demo.evaluation import table  # noqa: PLC0415 - SciPy and Matplotlib take a second to load
+    from ..demo.picture import draw  # noqa: PLC0415
+    from ..demo.run import BuildError, DemoError, demonstrate  # noqa: PLC0415
+
+    try:
+        machine, results = demonstrate(args.machine or models() / "three_axis", args.output)
+        draw(args.output / PICTURE, machine, results, CYCLE_TIME)
+    except (BuildError, DemoError, OSError) as error:
+        print(f"axcomp demo: {error}", file=sys.stderr)
+        return 1
+    print(table(results))
+    print(f"\n{args.output / PICTURE}")
+    return 0
