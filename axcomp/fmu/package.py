@@ -14,7 +14,7 @@ from ..compile import CYCLE_TIME, compile_tables
 from ..compile_pool import CompileError
 from ..lists import Finding, list_files, read_machine
 from ..machine import Machine
-from ..places import fmu_sources, models
+from ..places import fmu_sources
 from .archive import BuildError, content_guid, generation_date, write_fmu
 from .description import Description, model_description
 from .interface import FILE_NAME, Interface
@@ -115,13 +115,6 @@ def package_plant(
     )
     sources = (fmu_sources() / "plant_slave.py", fmu_sources() / "plant_model")
     return _write("plant.fmu", output, description, variables, sources, {file.name: _bytes(file)})
-
-
-def package_example(folder: str | os.PathLike[str] = ".", *, external_tool: bool = True) -> tuple[Built, Path]:
-    """Write ``axcomp.fmu`` and ``plant.fmu`` of the example machine ``models/three_axis`` into a folder."""
-    model = models() / "three_axis"
-    built = package_axcomp(model, Path(folder), external_tool=external_tool)
-    return built, package_plant(model, Path(folder), external_tool=external_tool)
 
 
 def version() -> str:

@@ -1,0 +1,103 @@
+"""The reference page of the FMU, from the declarations: ``python -m axcomp.fmu.reference`` writes it again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ..machine import KINDS
+from ..places import models
+from .errors import ERRORS
+from .variable import BLOCK, TYPE_NAMES
+from .variables import AXIS_BLOCK, AXIS_DECLARATIONS, MACHINE_BLOCK, OF_MACHINE, Declaration
+
+PAGE = models().parent / "docs" / "fmu-reference.md"
+
+HEAD = """\
+# Variables of axcomp.fmu
+
+Written by `python -m axcomp.fmu.reference` from `axcomp/fmu/variables.py`.
+
+`NAME` is the name of an axis (`kopf.log_achs_name`, else `axis<number>`) with `_` for what an identifier cannot hold.
+Only what is configured appears. Units are those of the axis: mm or deg, mm/s or deg/s, mm/s2 or deg/s2, each defined by
+its factor to SI units, so that tools convert. With `--naming flat` every `.` is a `_`.
+
+A value reference is `{block} · block + identifier`, the same in every FMU: block {machine} is the machine's, block
+{axis} + i that of axis i = 0 … 31 in the order of the lists.
+"""
+
+STEPS = """\
+## Time
+
+* The cycles of the position controller lie at start time + k · `cycle_time`. A communication step [t, t + h) runs those
+  whose instants fall into it, with the inputs held; if none does, the outputs hold. How a stretch of time is divided
+  into steps therefore changes nothing at the instants.
+* The outputs read after a step belong to the inputs set before it: FMI 2.0 co-simulation has no feedthrough inside a
+  step. At the end of initialization they belong to the start values.
+* `reload`: its rising edge acts at the beginning of a step. Lists with an error, with other axes or with a compensation
+  that was not there before are refused as a whole. A relative `update_path` counts from the host's current folder.
+* Get, set and serialize state bring everything back, lists taken by `reload` included. A serialized state fits FMUs of
+  the same version and machine only.
+* The lists in `resources/` of an unpacked FMU are read at instantiation: change them, and the next instance uses them.
+  The variables stay as they are: a new compensation acts, but its variables are not there.
+
+## Errors
+
+`NAME.error` is 0 or one of these, until `reset`:
+
+| Number | Meaning |
+| ---: | --- |
+"""
+
+LIMITS = """
+No call fails: what cannot be carried out, such as a value reference that does not exist, sets `NAME.error`, and the log
+and standard error say why.
+
+## Where the FMU does not run
+
+It is a Python program in a pythonfmu shell: the host must have Python 3.11 or later in its process, as FMPy has.
+pythonfmu's own library fails when the FMU is unpacked under a path with one of `ü + ( ) [ ] # , %`.
+"""
+
+
+def reference_page() -> str:
+    """Return the page as Markdown."""
+    head = HEAD.format(block=BLOCK, machine=MACHINE_BLOCK, axis=AXIS_BLOCK)
+    machine = _table(OF_MACHINE, "")
+    axis = _table([d for d in AXIS_DECLARATIONS if not d.kind], "NAME.")
+    kinds = "\n".join(
+        f"\n### With {kind} compensation\n\n" + _table([d for d in AXIS_DECLARATIONS if d.kind == kind], "NAME.")
+        for kind in KINDS
+    )
+    errors = "\n".join(f"| {number} | {meaning} |" for number, meaning in ERRORS.items())
+    tables = f"## Of the machine\n\n{machine}\n\n## Of every axis\n\n{axis}\n{kinds}\n"
+    return f"{head}\n{tables}\n{STEPS}{errors}\n{LIMITS}"
+
+
+def _table(declarations: Iterable[Declaration], prefix: str) -> str:
+    return "\n".join(_rows(declarations, prefix))
+
+
+def _rows(declarations: Iterable[Declaration], prefix: str) -> Iterator[str]:
+    yield "| Variable | | Type | Unit | Start | Identifier | Meaning |"
+    yield "| --- | --- | --- | --- | --- | ---: | --- |"
+    for d in declarations:
+        yield (
+            f"| `{prefix}{d.name}` | {d.causality} | {TYPE_NAMES[type(d.start)]} | {_units(d)} | {_start(d)} "
+            f"| {d.identifier} | {d.description} |"
+        )
+
+
+def _units(declaration: Declaration) -> str:
+    return ", ".join(dict.fromkeys(declaration.unit.format(unit) for unit in ("mm", "deg")))
+
+
+def _start(declaration: Declaration) -> str:
+    if declaration.causality == "output":
+        return ""
+    if declaration.name.endswith(".enable"):
+        return "automatic activation"
+    return str(declaration.start).lower() if isinstance(declaration.start, bool) else repr(declaration.start)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(reference_page(), encoding="utf-8")
