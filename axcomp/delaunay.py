@@ -15,7 +15,7 @@ from typing import NamedTuple
 UNITS = 1e9
 """Whole coordinates per mm or °: points in a line of the lists' 0.1 µm are so in the rounded coordinates too."""
 
-FLAT = 10**6
+FLAT = 10**8
 """A triangle whose longest side is more than this many times its height is left out."""
 
 

@@ -17,7 +17,7 @@ CROSSTALK_LINE = 2  # mode 2
 CROSSTALK_GRID = 3  # mode 3, tests on a full rectangular grid
 CROSSTALK_TRIANGLES = 4  # mode 3, scattered tests
 
-ON_EDGE = -1e-9  # barycentric coordinate of a point that rounding puts just outside a triangle, as flat as they come
+ON_EDGE = -1e-7  # barycentric coordinate of a point that rounding puts just outside a triangle, as flat as they come
 
 
 def crosstalk_value(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields
-from fractions import Fraction
 
+from ..delaunay import triangulate
 from ..machine import AxisType, Crosstalk, CrosstalkCurve, CrosstalkTest
 from .axes import AxisSettings
 from .compensation import CompensationList
@@ -137,10 +137,8 @@ def _at_different_places(source: CompensationList, rows: list[CrosstalkTest], na
 
 
 def _in_line(tests: Sequence[CrosstalkTest]) -> bool:
-    """Whether all places lie on one straight line, exactly."""
-    points = [(Fraction(test.position1), Fraction(test.position2)) for test in tests]
-    (x0, y0), (x1, y1) = points[:2]
-    return all((x1 - x0) * (y - y0) == (x - x0) * (y1 - y0) for x, y in points[2:])
+    """Whether the places span no triangle to interpolate over."""
+    return not triangulate([test.position1 for test in tests], [test.position2 for test in tests]).triangles
 
 
 def _read_curve(source: CompensationList) -> CrosstalkCurve | None:
