@@ -270,7 +270,15 @@ _CROSSTALK = (
         aliases=("kw.crosstalk.master_ax_nr",),
     ),
     Parameter("kw.crosstalk.n_cycles", "Cycles of smooth switching", _UNS16, 0, _both("00064"), _CYCLES, "[0, 20]"),
-    Parameter("kw.crosstalk.manual_activation", "On only by command", _FLAG, 0, _isg("00065") | _twincat("00073")),
+    Parameter(
+        "kw.crosstalk.manual_activation",
+        "On only by command",
+        _FLAG,
+        0,
+        _isg("00065") | _twincat("00073"),
+        # So it stands in the overview of the TwinCAT manual.
+        typos=("kw.crosstalk.master_ax_nr.manual_activation",),
+    ),
     Parameter(
         "kw.crosstalk.acceleration",
         "Acceleration of the tests",
