@@ -7,11 +7,11 @@ import io
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
+from types import ModuleType
 
-from . import check, measure, parameters
-
-COMMANDS = (check, parameters, measure)
-"""Each module has ``add_subparser(subparsers)``; it sets ``do``, a function of the options that returns the status."""
+COMMANDS = ("build", "check", "parameters", "demo", "bench", "measure")
+"""Each is a module with ``add_subparser(subparsers)``, which sets ``do``: a function of the options → exit status."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,9 +21,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
     )
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
-    for command in COMMANDS:
+    given = sys.argv[1:] if arguments is None else arguments
+    for command in _modules(given[:1]):
         command.add_subparser(subparsers)
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(given)
     try:
         status: int = options.do(options)
         sys.stdout.flush()
@@ -40,6 +41,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"axcomp: {error}", file=sys.stderr)
         return 1
     return status
+
+
+def _modules(wanted: Sequence[str]) -> list[ModuleType]:
+    """Import the command that is wanted, else all for the help: what one needs must not slow down the others."""
+    named = [name for name in COMMANDS if name in wanted]
+    modules = []
+    for name in named or COMMANDS:
+        try:
+            modules.append(import_module(f".{name}", __name__))
+        except ModuleNotFoundError as error:
+            if error.name is None or error.name.startswith(__package__):
+                raise
+            if named:
+                raise SystemExit(f"axcomp: {name} needs {error.name}: pip install axcomp[workbench]") from None
+    return modules
 
 
 def _print_anything() -> None:

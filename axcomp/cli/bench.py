@@ -13,6 +13,7 @@ from pathlib import Path
 from ..bench.clock import Sample
 from ..bench.engine import bench_engine, bench_growth, bench_lists, bench_memory
 from ..bench.fmu import bench_fmu
+from ..fmu.package import package_axcomp
 from ..lists import read_machine
 from ..places import models
 
@@ -58,6 +59,13 @@ def _samples(quick: bool) -> Iterator[Sample]:
     yield from bench_growth(repeats)
     yield from bench_lists(repeats)
     yield from bench_memory(machine, 10_000 if quick else 1_000_000)
+
+
+def _fmus(folder: Path, repeats: int) -> Iterator[Sample]:
+    """Build the FMU of the example machine and measure it."""
+    path = folder / "axcomp.fmu"
+    package_axcomp(models() / "three_axis", path)
+    yield from bench_fmu(path, "axcomp.fmu (Python)", repeats, goal=70.0)
 
 
 def _line(one: Sample) -> str:
