@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from ..compile import compile_tables
 from ..lists import read_machine
 from ..lists.findings import Severity
 from ..machine import Machine
@@ -82,7 +81,7 @@ class Instance:
         self._own_machine = self.runtime.machine
         self._readable: dict[str, dict[int, _Place]] = {name: {} for name in TYPE_NAMES.values()}
         self._settable: dict[str, dict[int, _Place]] = {name: {} for name in TYPE_NAMES.values()}
-        self._find_places()
+        self._run(self.runtime)
 
     @guarded
     def _start(self) -> None:
@@ -109,10 +108,11 @@ class Instance:
         machine, complaints = self._interface.fit(machine)
         return machine, complaints, sum(finding.severity is Severity.ERROR for finding in findings)
 
-    def _find_places(self) -> None:
-        """Note where the value of each reference stands, by type: a record and the name of its field."""
-        records = (self.runtime.inputs, self.runtime.outputs, self.controls)
-        for reference, declaration, record in every_place(len(self.runtime.machine.axes), *records):
+    def _run(self, runtime: Runtime) -> None:
+        """Go on with a runtime: note where the value of each reference stands, a record and the name of its field."""
+        self.runtime = runtime
+        records = (runtime.inputs, runtime.outputs, self.controls)
+        for reference, declaration, record in every_place(len(runtime.machine.axes), *records):
             name = TYPE_NAMES[type(declaration.start)]
             self._readable[name][reference] = (record, declaration.field)
             if declaration.causality != "output":
@@ -185,10 +185,11 @@ class Instance:
 
     @guarded
     def _begin(self) -> None:
-        tables = self.runtime.tables
-        if self.controls.cycle_time != tables.cycle_time:
-            wanted, self.controls.cycle_time = self.controls.cycle_time, tables.cycle_time
-            self.runtime.tables = compile_tables(self.runtime.machine, wanted)
+        wanted, self.controls.cycle_time = self.controls.cycle_time, self.runtime.tables.cycle_time
+        if wanted != self.controls.cycle_time:
+            runtime = Runtime(self.runtime.machine, wanted)
+            runtime.inputs = self.runtime.inputs
+            self._run(runtime)
             self.controls.cycle_time = wanted
         self.runtime.begin(self._start_time)
 
@@ -221,6 +222,10 @@ class Instance:
 
     def save(self) -> bytes:
         """Return everything that changes: state, inputs, outputs, clock, controls, and lists taken by ``reload``."""
+        return self._save() or b""
+
+    @guarded
+    def _save(self) -> bytes:
         machine = self.runtime.machine
         saved = Saved(
             self.controls.cycle_time,
@@ -238,13 +243,12 @@ class Instance:
     def restore(self, data: bytes) -> None:
         """Go back to what ``save`` returned, here or in another instance of the same FMU; else nothing changes."""
         saved = Saved.from_bytes(data)
-        runtime = self.runtime
         machine = saved.machine or self._own_machine
-        tables = runtime.tables
-        if machine is not runtime.machine or saved.cycle_time != tables.cycle_time:
-            tables = compile_tables(machine, saved.cycle_time)
+        runtime = self.runtime
+        if machine is not runtime.machine or saved.cycle_time != runtime.tables.cycle_time:
+            runtime = Runtime(machine, saved.cycle_time)
         runtime.restore(saved.snapshot)
-        runtime.machine, runtime.tables = machine, tables
+        self._run(runtime)
         self.controls.cycle_time = saved.cycle_time
         self.controls.reload = saved.reload
         self.controls.update_path = saved.update_path

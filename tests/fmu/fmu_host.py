@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import multiprocessing
 import shutil
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any, ParamSpec, Self, TypeVar
 
@@ -19,10 +21,18 @@ Result = TypeVar("Result")
 CYCLE = 0.001
 
 
+@functools.cache
+def _child() -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
+
+
 def in_child(function: Callable[Parameters, Result], *args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
-    """Call a function of a test module in a fresh process."""
-    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
-        return pool.submit(function, *args, **kwargs).result(timeout=120)
+    """Call a function of a test module in another process; a new one if the last call has ended it."""
+    try:
+        return _child().submit(function, *args, **kwargs).result(timeout=120)
+    except BrokenProcessPool:
+        _child.cache_clear()
+        raise
 
 
 class Host:

@@ -27,7 +27,7 @@ def three_axes(scale: float = 1.0) -> Machine:
         "X",
         backlash_cycles=4,
         leadscrew=Leadscrew((-100.0, -20.0, 30.0, 100.0), screw, (0.02, 0.01, 0.0, -0.01)),
-        friction=Friction((0.0, 5.0, 50.0), (100.0, 60.0, 80.0), position_delay=0.05, reversal_lookahead=2),
+        friction=Friction((0.5, 5.0, 50.0), (100.0, 60.0, 80.0), position_delay=0.001, reversal_lookahead=2),
     )
     y = Axis(
         2,
@@ -39,13 +39,17 @@ def three_axes(scale: float = 1.0) -> Machine:
             acceleration=1000.0,
             deceleration=-800.0,
             mode=2,
-            tests=(CrosstalkTest(-50.0, 0.0, 0.01, 0.02, 0.03, 0.04), CrosstalkTest(50.0, 0.0, 0.02, 0.01, 0.0, 0.01)),
+            tests=(
+                CrosstalkTest(-50.0, 0.0, 0.01, 0.02, 0.03, 0.04),
+                CrosstalkTest(0.0, 0.0, 0.015, 0.01, 0.02, 0.0),
+                CrosstalkTest(50.0, 0.0, 0.02, 0.01, 0.0, 0.01),
+            ),
             adaptation1=1,
             velocity_dependent=True,
             n_cycles=4,
         ),
         leadscrew=Leadscrew((0.0, 50.0, 100.0), (0.0, 0.01, -0.01)),
-        friction=Friction((0.0, 10.0), (40.0, 20.0), delay_cycles=3, reversal_lookahead=1),
+        friction=Friction((0.5, 10.0), (40.0, 20.0), delay_cycles=3, reversal_lookahead=1),
     )
     c = Axis(
         3,

@@ -1,0 +1,100 @@
+"""The plant's FMU in a host: the same bits as the plant itself, its state, and inputs that are no numbers."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from fmu_host import CYCLE, Host, in_child
+
+from axcomp.fmu.package import package_plant
+from axcomp.measurement.simulated import load_plant
+from axcomp.places import models
+
+MODEL = models() / "three_axis"
+AXES = ("X", "Y", "Z")
+
+
+def rows() -> list[dict[str, float]]:
+    """Some motion with currents, from rest."""
+    ways = np.random.default_rng(3).normal(scale=[1e-4] * 3 + [30.0] * 3, size=(80, 6)).cumsum(axis=0).cumsum(axis=0)
+    names = [f"{axis}.setpoint" for axis in AXES] + [f"{axis}.current" for axis in AXES]
+    return [dict(zip(names, row, strict=True)) for row in (ways - ways[0]).tolist()]
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return package_plant(MODEL, tmp_path_factory.mktemp("plant"))
+
+
+def run(fmu: Path) -> list[dict[str, Any]]:
+    with Host(fmu) as host:
+        return host.run(rows())
+
+
+def test_it_is_the_plant_in_every_bit(fmu: Path) -> None:
+    plant: Any = load_plant(MODEL)
+    plant.rest_at([0.0, 0.0, 0.0])
+    expected = []
+    for row in rows():
+        plant.step([row[f"{a}.setpoint"] for a in AXES], [row[f"{a}.current"] for a in AXES], CYCLE)
+        shown: dict[str, float] = {}
+        for axis, drive, true in zip(AXES, plant.drives, plant.true, strict=True):
+            shown[f"{axis}.true_position"] = true
+            shown[f"{axis}.measured_position"] = drive.position
+            shown[f"{axis}.velocity"] = drive.velocity
+            shown[f"{axis}.motor_current"] = drive.current
+            shown[f"{axis}.following_error"] = drive.lag
+        expected.append(shown)
+    assert in_child(run, fmu) == expected
+
+
+def save_and_restore(fmu: Path) -> tuple[list[Any], list[Any], list[Any]]:
+    with Host(fmu) as host, Host(fmu, folder=host.folder) as other:
+        host.run(rows()[:40])
+        state = host.slave.getFMUState()
+        serialized = host.slave.serializeFMUState(state)
+        first = host.run(rows()[40:])
+        host.slave.setFMUState(state)
+        again = host.run(rows()[40:])
+        other.slave.setFMUState(other.slave.deSerializeFMUState(serialized))
+        return first, again, other.run(rows()[40:])
+
+
+def test_a_state_brings_everything_back_in_another_instance_too(fmu: Path) -> None:
+    first, again, elsewhere = in_child(save_and_restore, fmu)
+    assert first == again == elsewhere
+
+
+def feed_nonsense(fmu: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    with Host(fmu) as host:
+        host.run([{"X.setpoint": 1.0}] * 200)
+        for nonsense in (math.nan, math.inf, -math.inf, 1e300) * 3:
+            shown = host.step({"X.setpoint": nonsense, "Y.current": nonsense})
+        return shown, host.step({"X.setpoint": 1.0, "Y.current": 0.0})
+
+
+def test_inputs_that_are_not_finite_keep_the_last_good_value(fmu: Path) -> None:
+    during, after = in_child(feed_nonsense, fmu)
+    assert during["X.measured_position"] == pytest.approx(1.0, abs=1e-6)
+    assert during["Y.measured_position"] == 0.0
+    assert after["X.measured_position"] == pytest.approx(1.0, abs=1e-6)
+
+
+def do_what_cannot_be_done(fmu: Path) -> tuple[list[int], float]:
+    with Host(fmu) as host:
+        for _ in range(3):
+            host.slave.setReal([host.variables["X.setpoint"].valueReference], [2.0])
+            host.slave.doStep(host.time, 0.0)
+        host.slave.setReal([9999], [1.0])
+        host.slave.getReal([9999])
+        outputs = host.run([{}] * 200)[-1]
+        return [status for status, *_ in host.messages], outputs["X.measured_position"]
+
+
+def test_impossible_calls_are_survived(fmu: Path) -> None:
+    _, position = in_child(do_what_cannot_be_done, fmu)
+    assert position == pytest.approx(2.0, abs=1e-6)
