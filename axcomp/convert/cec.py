@@ -1,0 +1,223 @@
+"""SINUMERIK CEC: sag and angularity compensation, one axis corrected over another or over itself.
+
+``$AN_CEC[t,N]`` is the value at point N of table t, ``$AN_CEC_STEP/MIN/MAX[t]`` place the points as in ENC_COMP,
+``…_INPUT_AXIS`` names the axis looked up, ``…_OUTPUT_AXIS`` the corrected one, ``…_DIRECTION`` says whether the table
+acts in both directions (0) or only in positive (1) or negative (−1) motion of the input axis, ``…_IS_MODULO`` repeats
+it. Tables of one pair of axes add up; two with directions 1 and −1 and the same axis twice are a bilateral leadscrew
+compensation. ``…_MULT_BY_TABLE`` other than 0 adds the product with another table, which no table over one axis holds.
+Weights are multiplied in: ``…_FACTOR`` and setting data SD41310 ``$SN_CEC_TABLE_WEIGHT[t]``; SD41300
+``$SN_CEC_TABLE_ENABLE[t]`` = 0 leaves a table out.
+
+Sign: the control changes the **setpoint** of the output axis by the value, looked up at the setpoint of the input axis;
+a positive value moves the axis in the positive direction. This is the correction itself, as in the cross table of the
+lists, and the opposite of ENC_COMP, which changes the measured position. Units: as in ENC_COMP; MD32711 may give them a
+system of their own.
+
+Source: Siemens 6FC5397-1BP40-3BA1 (03/2013), K3, 4.4.3 and 4.4.4, pages 244 to 266; 6FC5397-1CP10-5BA0, 11.3.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .numbers import decimal, scale
+from .resample import on_equidistant_points
+from .sinumerik import MAX_POINTS, Setting, index_of_last_point, program, settings, values_of
+from .table import CompensationTable, FormatError, Unit, unilateral_if_equal
+
+_PREFIX = "$AN_CEC"
+_PARAMETERS = ("STEP", "MIN", "MAX", "INPUT_AXIS", "OUTPUT_AXIS", "DIRECTION", "FACTOR", "MULT_BY_TABLE", "IS_MODULO")
+_SETTING_DATA = ("TABLE_WEIGHT", "TABLE_ENABLE")
+_KNOWN = {f"{_PREFIX}_{name}": name for name in _PARAMETERS} | {f"$SN_CEC_{name}": name for name in _SETTING_DATA}
+
+
+@dataclass
+class _Written:
+    """What a file says of one table."""
+
+    line: int
+    points: dict[int, float] = field(default_factory=dict)
+    parameters: dict[str, Setting] = field(default_factory=dict)
+
+    def number(self, name: str, default: float) -> float:
+        return self.parameters[name].number() if name in self.parameters else default
+
+    def flag(self, name: str, default: bool) -> bool:
+        return self.parameters[name].flag() if name in self.parameters else default
+
+
+@dataclass(frozen=True)
+class _Part:
+    """One table of the file: a curve that acts in some directions, and what it belongs to."""
+
+    line: int
+    curve: CompensationTable
+    directions: tuple[int, ...]
+
+
+def read_cec(text: str, *, inch: bool = False, rotary: Collection[str] = ()) -> list[CompensationTable]:
+    """Return the tables of a file, one for each pair of axes.
+
+    Parameters
+    ----------
+    text : str
+        Content of the file.
+    inch : bool
+        The basic system of the control is inch.
+    rotary : collection of str
+        Names of the rotary axes: the files do not tell them. The input axis of a modulo table is one anyway.
+
+    Raises
+    ------
+    FormatError
+        If the file is not of this format, or holds products of tables, with the line.
+    """
+    tables: dict[int, _Written] = {}
+    for setting in settings(text):
+        if setting.variable != _PREFIX and setting.variable not in _KNOWN:
+            raise FormatError(setting.line, f"{setting.variable} is no variable of a sag compensation")
+        written = tables.setdefault(setting.whole_index(0), _Written(setting.line))
+        wanted = 2 if setting.variable == _PREFIX else 1
+        if len(setting.indices) != wanted:
+            raise FormatError(setting.line, f"{setting.variable} has {wanted} indices, not {len(setting.indices)}")
+        if setting.variable == _PREFIX:
+            written.points[setting.whole_index(1)] = setting.number()
+        else:
+            written.parameters[_KNOWN[setting.variable]] = setting
+    if not any(written.points for written in tables.values()):
+        raise FormatError(0, "the file has no table")
+    pairs: dict[tuple[str, str], list[_Part]] = {}
+    for number, written in sorted(tables.items()):
+        if written.flag("TABLE_ENABLE", True):
+            part = _part(number, written, inch, rotary)
+            pairs.setdefault((part.curve.axis, part.curve.over), []).append(part)
+    return [_sum(parts) for parts in pairs.values()]
+
+
+def _part(number: int, written: _Written, inch: bool, rotary: Collection[str]) -> _Part:
+    name = f"table {number}"
+    for needed in ("STEP", "MIN", "MAX", "INPUT_AXIS", "OUTPUT_AXIS"):
+        if needed not in written.parameters:
+            raise FormatError(written.line, f"{name} has no {_PREFIX}_{needed}")
+    if written.number("MULT_BY_TABLE", 0.0) != 0.0:
+        line = written.parameters["MULT_BY_TABLE"].line
+        raise FormatError(line, f"{name} is multiplied by another one: no table over one axis holds the product")
+    direction = written.number("DIRECTION", 0.0)
+    if direction not in {-1.0, 0.0, 1.0}:
+        raise FormatError(written.parameters["DIRECTION"].line, f"{_PREFIX}_DIRECTION must be −1, 0 or 1")
+    step, low, high = (written.parameters[needed].number() for needed in ("STEP", "MIN", "MAX"))
+    over, axis = (written.parameters[needed].axis() for needed in ("INPUT_AXIS", "OUTPUT_AXIS"))
+    modulo = written.flag("IS_MODULO", False)
+    line = written.parameters["MAX"].line
+    last = index_of_last_point(low, high, step, line, name)
+    values = values_of(written.points, last, written.line, name)
+    if modulo and last == 0:
+        raise FormatError(line, f"{name} repeats but has no length")
+    over_unit: Unit = "deg" if modulo or over in rotary else "mm"
+    unit: Unit = over_unit if axis == over else "deg" if axis in rotary else "mm"
+    weight = written.number("FACTOR", 1.0) * written.number("TABLE_WEIGHT", 1.0) * scale(unit, inch)
+    factor = scale(over_unit, inch)
+    try:
+        curve = CompensationTable(
+            axis,
+            over,
+            tuple((low + index * step) * factor for index in range(last + 1)),
+            tuple(value * weight for value in values),
+            period=last * step * factor if modulo else None,
+            unit=unit,
+            over_unit=over_unit,
+        )
+    except ValueError as error:
+        raise FormatError(line, str(error)) from None
+    return _Part(written.line, curve, {0.0: (1, -1), 1.0: (1,), -1.0: (-1,)}[direction])
+
+
+def _sum(parts: Sequence[_Part]) -> CompensationTable:
+    """Add the tables of one pair of axes, on all their points."""
+    first = parts[0].curve
+    for part in parts[1:]:
+        if not _same_rhythm(part.curve, first):
+            raise FormatError(part.line, f"the tables of {first.axis} over {first.over} repeat differently")
+    positions = np.unique(np.concatenate([part.curve.positions for part in parts]))
+    curves = {direction: np.zeros(len(positions)) for direction in (1, -1)}
+    for part in parts:
+        for direction in part.directions:
+            # Not at(): the end of a table that repeats is a point of its own here.
+            curves[direction] += np.interp(positions, part.curve.positions, part.curve.positive)
+    summed = CompensationTable(
+        first.axis,
+        first.over,
+        tuple(positions.tolist()),
+        tuple(curves[1].tolist()),
+        tuple(curves[-1].tolist()),
+        first.period,
+        first.unit,
+        first.over_unit,
+    )
+    return unilateral_if_equal(summed)
+
+
+def _same_rhythm(one: CompensationTable, other: CompensationTable) -> bool:
+    if one.period is None or other.period is None:
+        return one.period is other.period
+    return math.isclose(one.period, other.period) and one.positions[0] == other.positions[0]
+
+
+def write_cec(
+    tables: Sequence[CompensationTable],
+    *,
+    inch: bool = False,
+    max_points: int = MAX_POINTS,
+    within: float | None = None,
+) -> str:
+    """Return the file with several tables; a bilateral one becomes two, one for each direction.
+
+    Parameters
+    ----------
+    tables : sequence of CompensationTable
+        Any.
+    inch : bool
+        The basic system of the control is inch.
+    max_points : int
+        What MD18342 of the control reserves for each table.
+    within : float or None
+        µm (m°) that equidistant points may cost; None: they must be equidistant.
+
+    Raises
+    ------
+    CannotHoldError
+        For what equidistant points cannot hold.
+    """
+    lines: list[str] = []
+    number = 0
+    for table in tables:
+        even = on_equidistant_points(table, max_points, within)
+        for direction in (0,) if even.negative is None else (1, -1):
+            lines += _blocks(even, number, direction, inch)
+            number += 1
+    return program("NC_CEC", lines)
+
+
+def _blocks(table: CompensationTable, number: int, direction: int, inch: bool) -> list[str]:
+    factor, over_factor = scale(table.unit, inch), scale(table.over_unit, inch)
+    last = len(table.positions) - 1
+    low, high = table.positions[0] / over_factor, table.positions[-1] / over_factor
+    return [
+        f"; {table.axis} over {table.over}: {last + 1} points, MD18342 MM_CEC_MAX_POINTS[{number}] must hold them",
+        *(
+            f"{_PREFIX}[{number},{index}]={decimal(value / factor)}"
+            for index, value in enumerate(table.curve(direction or 1))
+        ),
+        f"{_PREFIX}_INPUT_AXIS[{number}]=({table.over})",
+        f"{_PREFIX}_OUTPUT_AXIS[{number}]=({table.axis})",
+        f"{_PREFIX}_STEP[{number}]={decimal((high - low) / last)}",
+        f"{_PREFIX}_MIN[{number}]={decimal(low)}",
+        f"{_PREFIX}_MAX[{number}]={decimal(high)}",
+        f"{_PREFIX}_DIRECTION[{number}]={direction}",
+        f"{_PREFIX}_MULT_BY_TABLE[{number}]=0",
+        f"{_PREFIX}_IS_MODULO[{number}]={int(table.period is not None)}",
+    ]

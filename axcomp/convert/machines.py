@@ -1,0 +1,197 @@
+"""The leadscrew and cross compensations of a ``Machine`` as tables, and tables as compensations of a ``Machine``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from ..machine import Axis, AxisType, Cross, Leadscrew, Machine, ModuloRange
+from .table import CannotHoldError, CompensationTable, Unit
+
+CONVERTED = ("leadscrew", "cross")
+"""Kinds that are tables over the position of one axis."""
+
+_OTHERS = {
+    "plane": "is a table over two axes",
+    "crosstalk": "is a table over accelerations",
+    "friction": "is a table of currents over velocities",
+}
+
+
+def tables_of(machine: Machine, axis: str | None = None, kind: str | None = None) -> list[CompensationTable]:
+    """Return the tables of a machine, axis by axis.
+
+    Parameters
+    ----------
+    machine : Machine
+        The one whose compensations are in force.
+    axis : str or None
+        Only of the axis with this name.
+    kind : str or None
+        Only of this kind, one of ``KINDS``.
+
+    Raises
+    ------
+    CannotHoldError
+        If there is none, or one that is asked for is not over the position of one axis.
+    """
+    if axis is not None and axis not in {other.name for other in machine.axes}:
+        names = ", ".join(other.name for other in machine.axes) or "none"
+        raise CannotHoldError(f"there is no axis {axis!r}; the machine has {names}")
+    tables = []
+    for one in machine.axes:
+        for name, compensation in one.compensations():
+            if axis not in {None, one.name} or kind not in {None, name}:
+                continue
+            if isinstance(compensation, Leadscrew):
+                tables.append(_of_leadscrew(one, compensation))
+            elif isinstance(compensation, Cross):
+                tables.append(_of_cross(machine, one, compensation))
+            else:
+                hint = "" if kind else "; choose with --axis and --kind"
+                raise CannotHoldError(
+                    f"the {name} compensation of {one.name} {_OTHERS[name]}: no other format holds it{hint}"
+                )
+    if machine.volumetric and axis is None and kind is None:
+        raise CannotHoldError("a volumetric compensation is no table over one axis; choose with --axis and --kind")
+    if not tables:
+        of_axis = f" of axis {axis}" if axis else ""
+        raise CannotHoldError(f"no {kind or 'leadscrew or cross'} compensation{of_axis} is in force")
+    return tables
+
+
+def _of_leadscrew(axis: Axis, leadscrew: Leadscrew) -> CompensationTable:
+    unit: Unit = _unit(axis)
+    period = axis.modulo.end - axis.modulo.start if leadscrew.modulo and axis.modulo is not None else None
+    negative = None if leadscrew.negative is None else _negated(leadscrew.negative)
+    return CompensationTable(
+        axis.name, axis.name, leadscrew.positions, _negated(leadscrew.positive), negative, period, unit, unit
+    )
+
+
+def _of_cross(machine: Machine, axis: Axis, cross: Cross) -> CompensationTable:
+    master = machine.axes[machine.index_of(cross.master)]
+    return CompensationTable(
+        axis.name, master.name, cross.positions, cross.corrections, unit=_unit(axis), over_unit=_unit(master)
+    )
+
+
+def _negated(values: Iterable[float]) -> tuple[float, ...]:
+    return tuple(0.0 - value for value in values)
+
+
+def _unit(axis: Axis) -> Unit:
+    return "mm" if axis.type is AxisType.TRANSLATORY else "deg"
+
+
+def dropped(machine: Machine, tables: Sequence[CompensationTable]) -> list[str]:
+    """Return, a sentence each, what the lists say of tables that the other formats have no word for."""
+    sentences = []
+    for table in tables:
+        compensation = getattr(machine.axis(table.axis), table.kind)
+        said = {
+            "manual_activation": "is switched on by command only",
+            "n_cycles": "is switched on and off softly",
+            "without_other_compensations": "leaves the other compensations out of its position",
+        }
+        lost = [words for name, words in said.items() if getattr(compensation, name, 0)]
+        sentences += [f"{table.name} {words}; the other format does not say so" for words in lost]
+    return sentences
+
+
+def machine_with(tables: Sequence[CompensationTable], machine: Machine | None = None) -> Machine:
+    """Return a machine with these tables.
+
+    Parameters
+    ----------
+    tables : sequence of CompensationTable
+        At most one of a kind for each axis.
+    machine : Machine or None
+        The machine they are for: its axes keep what else they have. None: a new one, whose axes are numbered as they
+        come (``AX3``, as SINUMERIK calls them, is number 3).
+
+    Raises
+    ------
+    CannotHoldError
+        If the lists have no place for a table, or the machine no such axis.
+    """
+    axes = {axis.name: axis for axis in machine.axes} if machine is not None else _new_axes(tables)
+    for table in tables:
+        for name, unit in ((table.axis, table.unit), (table.over, table.over_unit)):
+            if name not in axes:
+                raise CannotHoldError(f"{table.name} needs an axis {name}; the machine has {', '.join(axes) or 'none'}")
+            if _unit(axes[name]) != unit:
+                raise CannotHoldError(f"axis {name} of the machine counts in {_unit(axes[name])}, the table in {unit}")
+    done: set[tuple[str, str]] = set()
+    for table in tables:
+        if (table.axis, table.kind) in done:
+            raise CannotHoldError(f"{table.axis} has two {table.kind} tables; the lists have room for one")
+        done.add((table.axis, table.kind))
+        axis = axes[table.axis]
+        axes[table.axis] = (
+            _with_leadscrew(axis, table)
+            if table.kind == "leadscrew"
+            else _with_cross(axis, axes[table.over].number, table)
+        )
+    found = tuple(axes.values())
+    return Machine(found) if machine is None else replace(machine, axes=found)
+
+
+def _new_axes(tables: Sequence[CompensationTable]) -> dict[str, Axis]:
+    units: dict[str, Unit] = {}
+    for table in tables:
+        units.setdefault(table.axis, table.unit)
+        units.setdefault(table.over, table.over_unit)
+    said = {name: int(name[2:]) for name in units if name[:2].upper() == "AX" and name[2:].isdecimal()}
+    numbers = {name: number for name, number in said.items() if 0 < number < 2**16}
+    if len(set(numbers.values())) < len(numbers):
+        numbers = {}
+    free = (number for number in range(1, len(units) + len(numbers) + 1) if number not in numbers.values())
+    return {
+        name: Axis(
+            numbers[name] if name in numbers else next(free),
+            name,
+            AxisType.TRANSLATORY if unit == "mm" else AxisType.ROTARY,
+        )
+        for name, unit in units.items()
+    }
+
+
+def _with_leadscrew(axis: Axis, table: CompensationTable) -> Axis:
+    old = axis.leadscrew or Leadscrew((), ())
+    modulo = axis.modulo
+    if table.period is not None:
+        if table.unit == "mm":
+            raise CannotHoldError(f"{table.name} repeats every {table.period:g} mm: the lists repeat rotary axes only")
+        modulo = modulo or ModuloRange(0.0, table.period)
+        if abs(modulo.end - modulo.start - table.period) > 1e-9:
+            raise CannotHoldError(
+                f"{table.name} repeats every {table.period:g} deg, its axis from {modulo.start:g} to {modulo.end:g}"
+            )
+    leadscrew = replace(
+        old,
+        positions=table.positions,
+        positive=_negated(table.positive),
+        negative=None if table.negative is None else _negated(table.negative),
+        modulo=table.period is not None,
+        max_points=max(old.max_points, len(table.positions)),
+    )
+    return replace(axis, leadscrew=leadscrew, modulo=modulo)
+
+
+def _with_cross(axis: Axis, master: int, table: CompensationTable) -> Axis:
+    if table.negative is not None:
+        raise CannotHoldError(f"{table.name} is bilateral: the lists have one curve for both directions of the master")
+    if table.period is not None:
+        raise CannotHoldError(
+            f"{table.name} repeats every {table.period:g} {table.over_unit}: a cross table of the lists ends"
+        )
+    old = axis.cross or Cross(master, (), ())
+    cross = replace(
+        old,
+        master=master,
+        positions=table.positions,
+        corrections=table.positive,
+        max_points=max(old.max_points, len(table.positions)),
+    )
+    return replace(axis, cross=cross)

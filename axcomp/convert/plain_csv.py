@@ -1,0 +1,175 @@
+"""Plain CSV: one line for each point, tables told apart by the columns ``axis`` and ``over``.
+
+Columns, in any order and case, only ``position`` and a value being needed: ``axis`` (corrected), ``over`` (looked up;
+else the axis itself), ``unit`` and ``over_unit`` (mm or deg), ``period``, ``position``, and the values of positive and
+negative motion. The name of a value column tells its sign: ``correction_positive``/``correction_negative`` are added to
+the setpoint, ``error_positive``/``error_negative`` are actual − programmed, the negative of it; ``correction`` or
+``error`` alone serves both directions. Separated by commas, semicolons or tabs; with the latter two a decimal comma is
+taken too. ``#`` begins a comment line. Written: corrections, commas, all columns. Our own format: no other source.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from io import StringIO
+
+from .numbers import decimal, number, shortened
+from .table import CompensationTable, FormatError, Unit, unilateral_if_equal
+
+COLUMNS = ("axis", "unit", "over", "over_unit", "period", "position", "correction_positive", "correction_negative")
+_SIGNS = {"correction": 1.0, "error": -1.0}
+_KNOWN = {*COLUMNS, *(f"{name}{side}" for name in _SIGNS for side in ("", "_positive", "_negative"))}
+_UNITS: dict[str, Unit] = {"": "mm", "mm": "mm", "deg": "deg", "°": "deg"}
+_FIELD_MAX = 1000
+
+
+@dataclass
+class _Written:
+    """The lines of one table."""
+
+    line: int
+    head: tuple[str, str, str, str]
+    positions: list[float] = field(default_factory=list)
+    positive: list[float] = field(default_factory=list)
+    negative: list[float] = field(default_factory=list)
+
+
+def read_csv(text: str, *, axis: str = "") -> list[CompensationTable]:
+    """Return the tables of a file in the order they begin.
+
+    Parameters
+    ----------
+    text : str
+        Content of the file.
+    axis : str
+        Name of the axis where the file has no such column.
+
+    Raises
+    ------
+    FormatError
+        If the file is not of this format, with the line.
+    """
+    rows = list(_rows(text))
+    if not rows:
+        raise FormatError(0, "the file has no line that names the columns")
+    header_line, labels = rows[0]
+    names = [label.strip().lower() for label in labels]
+    for name in names:
+        if name not in _KNOWN:
+            raise FormatError(
+                header_line, f"unknown column {shortened(name)!r}; known are {', '.join(COLUMNS)}, error…"
+            )
+        if names.count(name) > 1:
+            raise FormatError(header_line, f"column {name!r} is there twice")
+    values = _value_columns(names, header_line)
+    tables: dict[tuple[str, str], _Written] = {}
+    for line, cells in rows[1:]:
+        if len(cells) != len(names):
+            raise FormatError(line, f"{len(cells)} cells stand under {len(names)} columns")
+        _take(dict(zip(names, cells, strict=True)), line, axis, values, tables)
+    if not tables:
+        raise FormatError(0, "the file has no points")
+    return [_table(key, written) for key, written in tables.items()]
+
+
+def _rows(text: str) -> Iterable[tuple[int, list[str]]]:
+    lines = text.splitlines()
+    header = next((line for line in lines if line.strip() and not line.startswith("#")), "")
+    separator = max(",;\t", key=header.count)
+    for number_, line in enumerate(lines, 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        try:
+            cells = next(csv.reader([line[:_FIELD_MAX]], delimiter=separator, strict=True))
+        except csv.Error as error:
+            raise FormatError(number_, f"{error}") from None
+        if separator != ",":
+            cells = [cell.replace(",", ".") for cell in cells]
+        yield number_, [cell.strip() for cell in cells]
+
+
+def _value_columns(names: Sequence[str], line: int) -> tuple[tuple[str, float], tuple[str, float]]:
+    """Return column and sign of the values in positive and negative motion."""
+    if "position" not in names:
+        raise FormatError(line, "there is no column 'position'")
+    kinds = [kind for kind in _SIGNS if any(name.startswith(kind) for name in names)]
+    if len(kinds) != 1:
+        raise FormatError(
+            line, "there must be a column 'correction' or 'error', with or without _positive and _negative"
+        )
+    kind = kinds[0]
+    sides = [name for name in names if name.startswith(kind)]
+    if kind in sides and len(sides) > 1:
+        raise FormatError(line, f"'{kind}' serves both directions: {sides[1]!r} has no place beside it")
+    positive = kind if kind in sides else f"{kind}_positive"
+    if positive not in sides:
+        raise FormatError(line, f"there is no column {positive!r}")
+    negative = f"{kind}_negative" if f"{kind}_negative" in sides else positive
+    return (positive, _SIGNS[kind]), (negative, _SIGNS[kind])
+
+
+def _take(
+    cells: Mapping[str, str],
+    line: int,
+    axis: str,
+    values: tuple[tuple[str, float], tuple[str, float]],
+    tables: dict[tuple[str, str], _Written],
+) -> None:
+    name = cells.get("axis", "") or axis
+    if not name:
+        raise FormatError(line, "the file does not tell the axis, so it must be given")
+    over = cells.get("over", "") or name
+    head = (cells.get("unit", ""), cells.get("over_unit", ""), cells.get("period", ""), name)
+    written = tables.setdefault((name, over), _Written(line, head))
+    if written.head != head:
+        raise FormatError(line, f"unit or period of {name} over {over} differ from line {written.line}")
+    position = number(cells["position"], line, "position")
+    if written.positions and position <= written.positions[-1]:
+        raise FormatError(line, f"the positions must ascend, but {position:g} follows {written.positions[-1]:g}")
+    written.positions.append(position)
+    (positive, sign), (negative, _) = values
+    written.positive.append(sign * number(cells[positive], line, positive))
+    # An empty cell: the value of the positive direction serves both.
+    written.negative.append(sign * number(cells[negative] or cells[positive], line, negative))
+
+
+def _table(key: tuple[str, str], written: _Written) -> CompensationTable:
+    unit, over_unit, period, _ = written.head
+    for said in (unit, over_unit):
+        if said not in _UNITS:
+            raise FormatError(written.line, f"a unit is mm or deg, not {shortened(said)!r}")
+    own = _UNITS[unit]
+    over = own if key[0] == key[1] and not over_unit else _UNITS[over_unit]
+    if key[0] == key[1] and own != over:
+        raise FormatError(written.line, f"axis {key[0]} cannot be in mm and deg at once")
+    try:
+        table = CompensationTable(
+            *key,
+            tuple(written.positions),
+            tuple(written.positive),
+            tuple(written.negative),
+            number(period, written.line, "period") if period else None,
+            own,
+            over,
+        )
+    except ValueError as error:
+        if isinstance(error, FormatError):
+            raise
+        raise FormatError(written.line, str(error)) from None
+    return unilateral_if_equal(table)
+
+
+def write_csv(tables: Sequence[CompensationTable]) -> str:
+    """Return the file of any tables."""
+    out = StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for table in tables:
+        period = "" if table.period is None else decimal(table.period)
+        head = (table.axis, table.unit, table.over, table.over_unit, period)
+        for index, position in enumerate(table.positions):
+            negative = "" if table.negative is None else decimal(table.negative[index])
+            writer.writerow([*head, decimal(position), decimal(table.positive[index]), negative])
+    return out.getvalue()
