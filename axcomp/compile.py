@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
+from .compile_pool import CompileError, append
+from .compile_volumetric import compile_volumetric
 from .delaunay import triangulate
 from .kernel.crosstalk import (
     CROSSTALK_CONSTANT,
@@ -41,12 +43,10 @@ from .machine import (
     Plane,
 )
 
+__all__ = ["CYCLE_TIME", "CompileError", "compile_tables"]
+
 CYCLE_TIME = 0.001
 """Default cycle time of the position controller in s: no list names it."""
-
-
-class CompileError(ValueError):
-    """A Machine that the kernel cannot run: the message names axis, compensation and what is wrong."""
 
 
 def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Tables:
@@ -75,6 +75,7 @@ def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Tables:
     tables.axis_count = len(machine.axes)
     for index, axis in enumerate(machine.axes):
         _AxisCompiler(machine, axis, tables, index).compile()
+    compile_volumetric(machine, tables)
     return tables
 
 
@@ -245,10 +246,7 @@ class _AxisCompiler:
 
     def _append(self, values: Sequence[float]) -> int:
         """Put numbers into the pool; return where they begin."""
-        self._require(all(abs(value) < 1e15 for value in values), "a table holds a number that is not finite")
-        first = len(self.pool)
-        self.pool.extend(values)
-        return first
+        return append(self.pool, values, f"axis {self.axis.name}")
 
     def _ascending(self, kind: str, x: Sequence[float]) -> None:
         self._require(all(a < b for a, b in pairwise(x)), f"{kind}: the points do not ascend")

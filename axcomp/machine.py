@@ -11,6 +11,8 @@ import enum
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from .volumetric import Volumetric
+
 AXES_MAX = 32
 """Compensation lists a start-up list can name (P-STUP-00016), and so the axes of a machine."""
 
@@ -278,6 +280,10 @@ class Axis:
         None for an axis without modulo counting (P-AXIS-00015).
     backlash_cycles : int
         Cycles over which the leadscrew compensation changes direction, 0..20 (P-AXIS-00243).
+    volumetric_limit : float or None
+        Largest volumetric correction, mm; None: not defined, which keeps the compensation off (P-AXIS-00525).
+    gantry_master : int or None
+        Logical number of the axis whose volumetric corrections it gets too; None: it is no gantry slave (P-AXIS-00070).
     """
 
     number: int
@@ -285,6 +291,8 @@ class Axis:
     type: AxisType = AxisType.TRANSLATORY
     modulo: ModuloRange | None = None
     backlash_cycles: int = 0
+    volumetric_limit: float | None = None
+    gantry_master: int | None = None
     cross: Cross | None = None
     plane: Plane | None = None
     crosstalk: Crosstalk | CrosstalkCurve | None = None
@@ -320,9 +328,12 @@ class Machine:
     ----------
     axes : tuple of Axis
         At most ``AXES_MAX``; numbers and names are unique.
+    volumetric : tuple of Volumetric
+        Compensations over several axes, at most five with different ``index``.
     """
 
     axes: tuple[Axis, ...] = ()
+    volumetric: tuple[Volumetric, ...] = ()
 
     def index_of(self, number: int) -> int:
         """Return the place in ``axes`` of the axis with a logical number; KeyError if there is none."""
@@ -339,4 +350,4 @@ class Machine:
         raise KeyError(name)
 
     def __repr__(self) -> str:
-        return "Machine(\n" + "".join(f"  {axis!r},\n" for axis in self.axes) + ")"
+        return "Machine(\n" + "".join(f"  {part!r},\n" for part in (*self.axes, *self.volumetric)) + ")"

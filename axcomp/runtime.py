@@ -38,6 +38,10 @@ def initial_inputs(tables: Tables) -> Inputs:
         for kind in KINDS:
             switch = getattr(table, kind).switching
             setattr(axis, f"{kind}_enable", switch.configured and not switch.manual)
+    del inputs.volumetric[tables.volumetrics :]
+    for volumetric, given in zip(tables.volumetric, inputs.volumetric, strict=False):
+        given.enable = volumetric.configured and not volumetric.manual
+        given.factor[:] = [1.0] * len(given.factor)
     return inputs
 
 
@@ -68,6 +72,8 @@ class Runtime:
         self.outputs = zero(Outputs)
         del self.state.axis[self.tables.axis_count :]
         del self.outputs.axis[self.tables.axis_count :]
+        del self.state.volumetric[self.tables.volumetrics :]
+        del self.outputs.volumetric[self.tables.volumetrics :]
         self.start_time = 0.0
         self.cycles = 0
         self._told: set[int] = set()
@@ -141,6 +147,9 @@ class Runtime:
             raise UpdateError("the new lists have other axes than the ones in force")
         for axis in machine.axes:
             self._refuse_new_kinds(old[axis.number], axis)
+        new = {volumetric.index for volumetric in machine.volumetric}
+        if not new <= {volumetric.index for volumetric in self.machine.volumetric}:
+            raise UpdateError("the new lists have a volumetric compensation that was not there")
         errors = {axis.name: error for axis in machine.axes if (error := _capacity_error(old[axis.number], axis))}
         axes = tuple(old[axis.number] if axis.name in errors else axis for axis in machine.axes)
         machine = replace(machine, axes=axes)

@@ -1,15 +1,22 @@
-"""An update of the tables while the machine runs: what is on stays on, with the new values from the next cycle on."""
+"""An update of the tables while the machine runs: what is on stays on, with the new values from the next cycle on.
+
+Only a volumetric compensation switches off, without motion; an automatic one then switches on again.
+"""
 
 from __future__ import annotations
 
 from .records import AxisOutputs, AxisState, AxisTable, Lookup, Outputs, State, SwitchState, SwitchTable, Tables
 from .switching import ramp
+from .volumetric_switching import adopt_volumetric
 
 
 def adopt(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:
     """Make the state fit the new tables; both have the same axes."""
     for i in range(after.axis_count):
         adopt_axis(before.axis[i], after.axis[i], state.axis[i], outputs.axis[i])
+    for k in range(before.volumetrics):
+        adopt_volumetric(before.volumetric[k], after.volumetric[k], state.volumetric[k])
+        outputs.volumetric[k].active = False
 
 
 def adopt_axis(before: AxisTable, after: AxisTable, axis: AxisState, out: AxisOutputs) -> None:

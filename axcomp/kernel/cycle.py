@@ -1,8 +1,8 @@
 """One cycle of the whole engine (semantics §3).
 
-For every axis: cross, plane and crosstalk, each from the masters' raw setpoints; the leadscrew from raw + these; then
-corrected setpoint = raw + all corrections + shift; the friction current from the setpoint velocity; the display
-position = measured position − (corrected − raw).
+For every axis: cross, plane and crosstalk, each from the masters' raw setpoints; the leadscrew from raw + these; the
+volumetric compensations from the raw setpoints of all their axes; then corrected setpoint = raw + all corrections +
+shift; the friction current from the setpoint velocity; the display position = measured position − (corrected − raw).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from .plane import plane_value
 from .record import Vec
 from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
 from .shift import absorb_before_leadscrew, absorb_leadscrew, release_shift
+from .volumetric import compensate_volume
 
 LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could overflow
 
@@ -24,6 +25,8 @@ def cycle(tables: Tables, state: State, inputs: Inputs, outputs: Outputs) -> Non
     """Run one cycle: the outputs belong to these inputs."""
     for i in range(tables.axis_count):
         accept(state.axis[i], inputs.axis[i])
+    if tables.volumetrics > 0:
+        compensate_volume(tables, state, inputs, outputs)
     for i in range(tables.axis_count):
         axis = state.axis[i]
         if inputs.reset:
@@ -73,9 +76,12 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
             begin_leadscrew(table.leadscrew, axis.leadscrew, position)
         correct_by_leadscrew(tables.pool, table, axis, position, out)
         correction += out.leadscrew_correction
+    out.volumetric_correction = axis.volumetric_correction
+    correction += out.volumetric_correction
 
     out.correction = correction
-    out.setpoint_shift = axis.shift.before_leadscrew + axis.shift.leadscrew
+    out.setpoint_shift = axis.shift.before_leadscrew + axis.shift.leadscrew + axis.volumetric_shift
+    out.stop_request = axis.stop_request
     out.corrected_setpoint = axis.setpoint + (correction + out.setpoint_shift)
     out.display_position = given.actual_position - (correction + out.setpoint_shift)
     if table.friction.switching.configured:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from .record import Vec
+from .volumetric_records import VOLUMETRICS, VolumetricInputs, VolumetricOutputs, VolumetricState, VolumetricTable
 
 AXES = 32
 DELAY_LINE = 249  # delay_cycles < 249 (P-COMP-00058)
@@ -223,6 +224,9 @@ class AxisState:
     velocity: float
     acceleration: float
     error: int  # stays until reset
+    stop_request: bool  # stays until reset, or until a volumetric compensation is switched on again
+    volumetric_correction: float  # of all volumetric compensations, this cycle
+    volumetric_shift: float  # what they have absorbed
     shift: ShiftState
     cross: CrossState
     plane: PlaneState
@@ -261,6 +265,7 @@ class AxisOutputs:
     plane_correction: float
     crosstalk_correction: float
     leadscrew_correction: float
+    volumetric_correction: float
     setpoint_shift: float
     cross_active: bool
     plane_active: bool
@@ -278,6 +283,8 @@ class Tables:
     cycle_time: float
     axis_count: int
     axis: Annotated[list[AxisTable], AXES]
+    volumetrics: int  # the last configured one and those before it
+    volumetric: Annotated[list[VolumetricTable], VOLUMETRICS]
     pool: Vec
 
 
@@ -286,6 +293,8 @@ class State:
     """Everything that is remembered from cycle to cycle; it holds no references, a copy is a snapshot."""
 
     axis: Annotated[list[AxisState], AXES]
+    tool_length: float  # mm; the last one that was finite
+    volumetric: Annotated[list[VolumetricState], VOLUMETRICS]
 
 
 @dataclass(slots=True)
@@ -295,6 +304,8 @@ class Inputs:
     reset: bool
     program_end: bool
     axis: Annotated[list[AxisInputs], AXES]
+    tool_length: float  # mm
+    volumetric: Annotated[list[VolumetricInputs], VOLUMETRICS]
 
 
 @dataclass(slots=True)
@@ -302,3 +313,4 @@ class Outputs:
     """Everything that a cycle returns."""
 
     axis: Annotated[list[AxisOutputs], AXES]
+    volumetric: Annotated[list[VolumetricOutputs], VOLUMETRICS]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from .record import whole
 
+QUARTER_PI = 0.7853981633974483
 HALF_PI = 1.5707963267948966
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI_HEAD = 1.57079632673412561417
@@ -51,9 +52,13 @@ def sine_of_quarter(x: float, quarter: int) -> float:
 
 def sine(x: float) -> float:
     """Return sin x, x in rad, |x| < 10⁵."""
+    if -QUARTER_PI < x < QUARTER_PI:
+        return sine_polynomial(x)
     return sine_of_quarter(x, 0)
 
 
 def cosine(x: float) -> float:
     """Return cos x, x in rad, |x| < 10⁵."""
+    if -QUARTER_PI < x < QUARTER_PI:
+        return cosine_polynomial(x)
     return sine_of_quarter(x, 1)

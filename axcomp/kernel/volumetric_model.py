@@ -1,0 +1,286 @@
+"""The kinematic model of a machine with errors, and its inversion (semantics §10).
+
+With R(a, b, c) = Rz(c)·Ry(b)·Rx(a), e the direction of an axis, P its centre, q its position and t = (X0 + EX, …):
+
+linear                A = Trans(R(A0, B0, C0)·e·q) · Trans(t) · R(EA, EB, EC)
+rotary, default       A = Trans(P) · Trans(t) · R(A0 + EA, …) · Rot(e, q) · Trans(−P)
+rotary, alternative   A = Trans(P) · Trans(EX, …) · R(EA, …) · L·Rot(e, q)·L⁻¹ · Trans(−P), L = Trans(X0, …)·R(A0, …)
+
+W(q) = A₁⁻¹ … A_k⁻¹ · A_{k+1} … A_n · (P0 + tool length · N0), k = workpiece axes. Every A is x ↦ M·x + o, M a rotation.
+
+All errors are those at q, so W is linear in the corrections of X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four
+columns carries W and J from the tool to the workpiece. Matrices are row by row.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from .interpolation import fold
+from .record import zeros
+from .trigonometry import HALF_PI, cosine, sine
+from .volumetric_records import ERRORS, ERRORS_OF_AXIS, LETTERS, LINEAR, VolumetricTable
+
+DEGREE = HALF_PI / 90.0
+FRAME = 12  # W, then the columns of J that belong to X, Y and Z
+RESIDUAL = 1e-9  # mm
+ITERATIONS = 5
+SINGULAR = 1e-6  # volume spanned by the columns of J, which are unit vectors
+
+
+def correction_at(
+    table: VolumetricTable,
+    position: Annotated[list[float], LETTERS],
+    tool_length: float,
+    errors: Annotated[list[float], ERRORS],
+    correction: Annotated[list[float], LINEAR],
+) -> bool:
+    """Put Δ with W(q + Δ) = nominal W(q) into ``correction``; False: X, Y and Z are dependent here.
+
+    Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
+    position is singular.
+    """
+    nominal = zeros(FRAME)
+    actual = zeros(FRAME)
+    carry_to_workpiece(table, position, tool_length, errors, nominal, actual)
+    if abs(volume(nominal)) < SINGULAR or abs(volume(actual)) < SINGULAR:
+        return False
+    inverse = zeros(9)
+    invert(actual, inverse)
+    for d in range(LINEAR):
+        correction[d] = 0.0
+    residual = zeros(LINEAR)
+    for _ in range(ITERATIONS):
+        largest = 0.0
+        for d in range(LINEAR):
+            residual[d] = (actual[d] - nominal[d]) + (
+                actual[3 + d] * correction[0] + actual[6 + d] * correction[1] + actual[9 + d] * correction[2]
+            )
+            largest = max(largest, abs(residual[d]))
+        if largest < RESIDUAL:
+            return True
+        turn(inverse, residual, 0)
+        for d in range(LINEAR):
+            correction[d] -= residual[d]
+    return False
+
+
+def carry_to_workpiece(
+    table: VolumetricTable,
+    position: Annotated[list[float], LETTERS],
+    tool_length: float,
+    errors: Annotated[list[float], ERRORS],
+    nominal: Annotated[list[float], FRAME],
+    actual: Annotated[list[float], FRAME],
+) -> None:
+    """Put W and J at a position into the frames, which are 0 before: without and with errors."""
+    for d in range(LINEAR):
+        nominal[d] = table.tool_position[d] + tool_length * table.tool_orientation[d]
+        actual[d] = nominal[d]
+    m = zeros(9)
+    o = zeros(3)
+    along = zeros(3)
+    for k in range(table.chain_length):
+        place = table.chain_length - 1 - k
+        letter = table.chain[place]
+        q = position[letter]
+        side = -1.0 if place < table.workpiece_axes else 1.0
+        if letter < LINEAR:
+            for d in range(LINEAR):
+                along[d] = table.direction[3 * letter + d]
+                nominal[d] += side * along[d] * q
+                nominal[3 + 3 * letter + d] = side * along[d]
+            linear_axis(letter, q, errors, m, o, along)
+        else:
+            nominal_rotary_axis(table, letter, q, m, o)
+            apply(m, o, side, nominal)
+            rotary_axis(table, letter, q, errors, m, o)
+        if letter < LINEAR and side < 0.0:
+            for d in range(LINEAR):
+                actual[3 + 3 * letter + d] = -along[d]
+        apply(m, o, side, actual)
+        if letter < LINEAR and side > 0.0:
+            for d in range(LINEAR):
+                actual[3 + 3 * letter + d] = along[d]
+
+
+def apply(
+    m: Annotated[list[float], 9],
+    o: Annotated[list[float], 3],
+    side: float,
+    frame: Annotated[list[float], FRAME],
+) -> None:
+    """Map a frame by x ↦ M·x + o, or by its inverse where ``side`` is negative; ``m`` becomes the matrix used."""
+    if side < 0.0:
+        for i in range(LINEAR):
+            frame[i] -= o[i]
+            for j in range(i):
+                upper = m[3 * j + i]
+                m[3 * j + i] = m[3 * i + j]
+                m[3 * i + j] = upper
+    for k in range(4):
+        turn(m, frame, 3 * k)
+    if side > 0.0:
+        for i in range(LINEAR):
+            frame[i] += o[i]
+
+
+def linear_axis(
+    letter: int,
+    q: float,
+    errors: Annotated[list[float], ERRORS],
+    m: Annotated[list[float], 9],
+    o: Annotated[list[float], 3],
+    along: Annotated[list[float], 3],
+) -> None:
+    """Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one."""
+    e = ERRORS_OF_AXIS * letter
+    rotation(errors[e + 3], errors[e + 4], errors[e + 5], m)
+    turn(m, along, 0)
+    for d in range(LINEAR):
+        o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d])
+    rotation(errors[e + 9], errors[e + 10], errors[e + 11], m)
+
+
+def nominal_rotary_axis(
+    table: VolumetricTable, letter: int, q: float, m: Annotated[list[float], 9], o: Annotated[list[float], 3]
+) -> None:
+    """Put the map of A, B or C without errors into ``m`` and ``o``; ``q`` in °."""
+    axis = zeros(3)
+    for d in range(LINEAR):
+        axis[d] = table.direction[3 * letter + d]
+        o[d] = 0.0
+    rotation_about(axis, q, m)
+    about_center(table, letter, m, o)
+
+
+def rotary_axis(
+    table: VolumetricTable,
+    letter: int,
+    q: float,
+    errors: Annotated[list[float], ERRORS],
+    m: Annotated[list[float], 9],
+    o: Annotated[list[float], 3],
+) -> None:
+    """Put the map of A, B or C into ``m`` and ``o``; ``q`` in °."""
+    e = ERRORS_OF_AXIS * letter
+    axis = zeros(3)
+    for d in range(LINEAR):
+        axis[d] = table.direction[3 * letter + d]
+    tilt = zeros(9)
+    if table.alternative:
+        # L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …).
+        rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt)
+        turn(tilt, axis, 0)
+        rotation_about(axis, q, m)
+        for d in range(LINEAR):
+            o[d] = -errors[e + d]
+        turn(m, o, 0)
+        for d in range(LINEAR):
+            o[d] += errors[e + d]
+        rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt)
+        turn(tilt, o, 0)
+        for d in range(LINEAR):
+            o[d] += errors[e + 6 + d]
+    else:
+        rotation_about(axis, q, m)
+        rotation(errors[e + 3] + errors[e + 9], errors[e + 4] + errors[e + 10], errors[e + 5] + errors[e + 11], tilt)
+        for d in range(LINEAR):
+            o[d] = errors[e + d] + errors[e + 6 + d]
+    multiply_from_left(tilt, m)
+    about_center(table, letter, m, o)
+
+
+def about_center(
+    table: VolumetricTable, letter: int, m: Annotated[list[float], 9], o: Annotated[list[float], 3]
+) -> None:
+    """Let a map about the origin act about the centre of A, B or C."""
+    center = zeros(3)
+    for d in range(LINEAR):
+        center[d] = table.center[3 * (letter - LINEAR) + d]
+        o[d] += center[d]
+    turn(m, center, 0)
+    for d in range(LINEAR):
+        o[d] -= center[d]
+
+
+def rotation(a: float, b: float, c: float, m: Annotated[list[float], 9]) -> None:
+    """Put Rz(c)·Ry(b)·Rx(a) into ``m``, angles in rad."""
+    if a == 0.0 and b == 0.0 and c == 0.0:
+        for i in range(9):
+            m[i] = 0.0
+        for i in range(LINEAR):
+            m[4 * i] = 1.0
+        return
+    sa = sine(a)
+    ca = cosine(a)
+    sb = sine(b)
+    cb = cosine(b)
+    sc = sine(c)
+    cc = cosine(c)
+    m[0] = cb * cc
+    m[1] = sa * sb * cc - ca * sc
+    m[2] = ca * sb * cc + sa * sc
+    m[3] = cb * sc
+    m[4] = sa * sb * sc + ca * cc
+    m[5] = ca * sb * sc - sa * cc
+    m[6] = -sb
+    m[7] = sa * cb
+    m[8] = ca * cb
+
+
+def rotation_about(e: Annotated[list[float], 3], q: float, m: Annotated[list[float], 9]) -> None:
+    """Put the rotation by ``q`` in ° about the unit vector ``e`` into ``m``."""
+    angle = fold(q, 0.0, 360.0) * DEGREE
+    s = sine(angle)
+    c = cosine(angle)
+    for i in range(LINEAR):
+        for j in range(LINEAR):
+            m[3 * i + j] = (1.0 - c) * e[i] * e[j]
+        m[4 * i] += c
+    m[1] -= s * e[2]
+    m[2] += s * e[1]
+    m[3] += s * e[2]
+    m[5] -= s * e[0]
+    m[6] -= s * e[1]
+    m[7] += s * e[0]
+
+
+def turn(m: Annotated[list[float], 9], v: Annotated[list[float], 3], at: int) -> None:
+    """Multiply the vector at v[at …] by a matrix."""
+    x = v[at]
+    y = v[at + 1]
+    z = v[at + 2]
+    v[at] = m[0] * x + m[1] * y + m[2] * z
+    v[at + 1] = m[3] * x + m[4] * y + m[5] * z
+    v[at + 2] = m[6] * x + m[7] * y + m[8] * z
+
+
+def multiply_from_left(a: Annotated[list[float], 9], m: Annotated[list[float], 9]) -> None:
+    """Replace ``m`` by a·m."""
+    for j in range(LINEAR):
+        x = m[j]
+        y = m[3 + j]
+        z = m[6 + j]
+        for i in range(LINEAR):
+            m[3 * i + j] = a[3 * i] * x + a[3 * i + 1] * y + a[3 * i + 2] * z
+
+
+def volume(frame: Annotated[list[float], FRAME]) -> float:
+    """Return the determinant of J."""
+    return (
+        frame[3] * (frame[7] * frame[11] - frame[8] * frame[10])
+        + frame[4] * (frame[8] * frame[9] - frame[6] * frame[11])
+        + frame[5] * (frame[6] * frame[10] - frame[7] * frame[9])
+    )
+
+
+def invert(frame: Annotated[list[float], FRAME], inverse: Annotated[list[float], 9]) -> None:
+    """Put the inverse of J into ``inverse``; J is not singular."""
+    determinant = volume(frame)
+    for i in range(LINEAR):
+        j = 3 + 3 * ((i + 1) % 3)
+        k = 3 + 3 * ((i + 2) % 3)
+        inverse[3 * i] = (frame[j + 1] * frame[k + 2] - frame[j + 2] * frame[k + 1]) / determinant
+        inverse[3 * i + 1] = (frame[j + 2] * frame[k] - frame[j] * frame[k + 2]) / determinant
+        inverse[3 * i + 2] = (frame[j] * frame[k + 1] - frame[j + 1] * frame[k]) / determinant

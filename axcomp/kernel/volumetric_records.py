@@ -1,0 +1,113 @@
+"""Records of the volumetric compensation. Lengths in mm, positions of rotary axes in °, angular errors in rad.
+
+An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Error ``ERRORS_OF_AXIS · letter + k`` is
+X0 Y0 Z0 A0 B0 C0 (k = 0 … 5) or EX EY EZ EA EB EC (k = 6 … 11) of that axis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+VOLUMETRICS = 5  # P-STUP-00101
+MEMBERS = 32
+LINEAR = 3
+LETTERS = 6
+ERRORS_OF_AXIS = 12
+ERRORS = 72
+
+INTERPOLATE_GRID = 0
+INTERPOLATE_SCATTER = 1
+INTERPOLATE_PATH = 2
+
+ERROR_LIMIT_UNDEFINED = 911  # AXC-911: no s_limit where one is needed
+ERROR_LIMIT_EXCEEDED = 912  # AXC-912: a correction is larger than s_limit
+ERROR_SINGULAR = 913  # AXC-913: X, Y and Z cannot move the tool in three directions here
+ERROR_PROGRAM_END = 914  # AXC-914: program end while a compensation of its channel was on
+
+
+@dataclass(slots=True)
+class ErrorBlock:
+    """Errors over the same nodes.
+
+    Value p of node n is at ``values + n * errors + p`` in the pool, the number of error p at ``error + p``. On a grid
+    the last argument changes fastest. Otherwise coordinate d of node n is at ``knots[0] + n * arguments + d``.
+    """
+
+    interpolation: int  # one of the INTERPOLATE_ constants
+    nodes: int
+    errors: int
+    error: int
+    values: int
+    arguments: int  # 0 … 6
+    argument: Annotated[list[int], LETTERS]  # letter of each
+    folded: Annotated[list[bool], LETTERS]  # its position is folded into 0° … 360°
+    points: Annotated[list[int], LETTERS]  # of the grid along it
+    knots: Annotated[list[int], LETTERS]  # where they are in the pool, ascending
+    steps: Annotated[list[int], LETTERS]  # where the pool has for each of points + 1 equal steps the knot before it
+    steps_per_unit: Annotated[list[float], LETTERS]
+
+
+@dataclass(slots=True)
+class VolumetricTable:
+    """What is fixed for a volumetric compensation; a member is an axis that takes part, gantry slaves included."""
+
+    configured: bool
+    manual: bool  # by command only
+    associated: bool  # program end while on is an error
+    cycles: int  # of a switch, at least 1 (1: at once)
+    members: int
+    member: Annotated[list[int], MEMBERS]  # index of the axis
+    member_letter: Annotated[list[int], MEMBERS]
+    member_limit: Annotated[list[float], MEMBERS]  # largest correction; 0: not defined
+    axis: Annotated[list[int], LETTERS]  # index of the axis that is X … C; 0 where there is none
+    offset: Annotated[list[float], LETTERS]  # added to its setpoint
+    chain_length: int
+    chain: Annotated[list[int], LETTERS]  # letters from the workpiece to the tool
+    workpiece_axes: int
+    alternative: bool
+    tool_position: Annotated[list[float], LINEAR]
+    tool_orientation: Annotated[list[float], LINEAR]
+    center: Annotated[list[float], 9]  # of A, B, C
+    direction: Annotated[list[float], 18]  # of X … C, unit vectors
+    sign: Annotated[list[float], LINEAR]  # −1: negated, 0: set to zero
+    constants: int  # errors that do not depend on anything
+    constant: int  # their numbers in the pool, and behind them their values
+    blocks: int
+    block: Annotated[list[ErrorBlock], ERRORS]
+
+
+@dataclass(slots=True)
+class VolumetricState:
+    """What a volumetric compensation remembers. ``weight`` goes 0 … 1 and back while it switches."""
+
+    started: bool
+    enable: bool  # the input in the last cycle: its edges are the commands
+    command: bool  # what was last commanded
+    on: bool  # the command, while it can be obeyed
+    step: int
+    weight: float
+    factor: Annotated[list[float], LINEAR]  # sign · CFACT, as of the last command
+    taking_part: Annotated[list[bool], LINEAR]  # False: dropped, its correction has become a shift
+    absorbed: Annotated[list[bool], LINEAR]  # what its correction changes in this cycle goes into the shift
+    value: Annotated[list[float], LINEAR]  # correction at full weight
+    contribution: Annotated[list[float], LINEAR]  # weight · value
+    shift: Annotated[list[float], LINEAR]  # what was absorbed: it stays until the next switch
+    held_shift: Annotated[list[float], LINEAR]  # the shift when its release began
+    release_step: Annotated[list[int], LINEAR]  # of its release: cycles … 0
+
+
+@dataclass(slots=True)
+class VolumetricInputs:
+    """What the controller says about a volumetric compensation in this cycle."""
+
+    enable: bool
+    no_move: bool
+    factor: Annotated[list[float], LINEAR]  # CFACT of X, Y, Z, 0 … 1; it counts when the compensation is switched on
+
+
+@dataclass(slots=True)
+class VolumetricOutputs:
+    """What the engine returns for a volumetric compensation."""
+
+    active: bool
