@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
+from functools import cache
 
 Value = int | Decimal | str
 """A value as it stands in a list: Booleans are 0 or 1, decimals are exact."""
@@ -141,6 +142,8 @@ class Parameter:
         Names that stand for numbers, in capitals.
     index_max : tuple of int
         Largest value of each index; empty if another parameter bounds it.
+    index_code : str
+        Code of the finding about an index that is too large.
     aliases, typos : tuple of str
         Other names: documented ones, and misspelt ones that are taken with a warning.
     code : str
@@ -160,6 +163,7 @@ class Parameter:
     values: tuple[int | str, ...] = ()
     names: Mapping[str, int] = field(default_factory=dict)
     index_max: tuple[int, ...] = ()
+    index_code: str = "AXC-INDEX"
     aliases: tuple[str, ...] = ()
     typos: tuple[str, ...] = ()
     code: str = "AXC-RANGE"
@@ -197,6 +201,7 @@ class Parameter:
         return value in self.tolerable and not (self.quantity.whole and value % 1)
 
 
+@cache
 def key_of(name: str) -> str:
     """Return a name in small letters with empty indices, as the catalogue is searched by."""
     return re.sub(r"\[[^\]]*\]", "[]", name).lower()

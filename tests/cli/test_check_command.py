@@ -1,0 +1,99 @@
+"""``axcomp check`` and ``axcomp parameters``."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from axcomp.cli import main
+from axcomp.cli.check import STATUS_MAX
+from axcomp.lists import write_machine
+from axcomp.lists.catalogue import CATALOGUE
+from axcomp.lists.reference import PAGE, page
+from axcomp.machine import Axis, Cross, Machine
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def lists(tmp_path: Path) -> Path:
+    write_machine(Machine((Axis(1, "X", cross=Cross(2, (0.0, 1.0), (0.0, 0.1))), Axis(2, "Y"))), tmp_path)
+    return tmp_path
+
+
+def test_a_faultless_machine_is_summed_up(lists: Path, capsys: Capture) -> None:
+    assert main(["check", str(lists)]) == 0
+    assert capsys.readouterr().out == "0 errors, 0 warnings, 0 infos; 2 axes with 1 compensation.\n"
+
+
+def test_findings_are_lines_with_file_and_line_and_the_status_counts_errors(lists: Path, capsys: Capture) -> None:
+    path = lists / "achskw1.lis"
+    path.write_text(path.read_text().replace("End", "kw.crosscomp.last_index 7"))
+    assert main(["check", str(lists / "hochlauf.lis")]) == 1
+    *findings, summary = capsys.readouterr().out.splitlines()
+    assert any(line.startswith(f"{path}:") and " error 70245: " in line for line in findings)
+    assert summary == "1 error, 3 warnings, 0 infos; 2 axes with 0 compensations."
+
+
+def test_findings_as_json(lists: Path, capsys: Capture) -> None:
+    (lists / "achskw1.lis").unlink()
+    assert main(["check", str(lists), "--format", "json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert found["counts"] == {"error": 1, "warning": 1, "info": 0}
+    assert [(f["code"], f["severity"], f["line"] > 0) for f in found["findings"]] == [
+        ("AXC-MISSING", "error", True),
+        ("AXC-NO-TABLE", "warning", True),
+    ]
+    assert found["axes"][1] == {"number": 2, "name": "Y", "type": "translatory", "compensations": []}
+
+
+def test_the_status_is_100_at_most(tmp_path: Path, capsys: Capture) -> None:
+    entries = "".join(f"achs_kw[{i}] no{i}.lis\nachs_mds[{i}] no{i}.lis\n" for i in range(32))
+    (tmp_path / "hochlauf.lis").write_text(f"zahl_kw 32\nzahl_mds 32\n{entries}")
+    few = main(["check", str(tmp_path)])
+    assert few == 22  # of each kind the first ten, and a count of the others
+    for i in range(1, 33):
+        table = "".join(f"kw.{kind}.last_index{at} 1\n" for kind, at in (("crosscomp", ""), ("crosscomp2", "_master1")))
+        text = f"kopf.achs_nr {i}\n{table}kw.ssfk.kw_nr_max 9\nkw.crosstalk.max_points 3\n"
+        (tmp_path / f"achskw{i}.lis").write_text(text)
+    (tmp_path / "hochlauf.lis").unlink()
+    assert main(["check", str(tmp_path)]) == STATUS_MAX
+    assert "128 errors" in capsys.readouterr().out.splitlines()[-1]
+
+
+@pytest.mark.parametrize("path", ["nothing", "nothing/hochlauf.lis", "\0", "a" * 5000])
+def test_a_path_that_is_not_there_is_an_error_in_a_sentence(path: str, tmp_path: Path, capsys: Capture) -> None:
+    assert main(["check", str(tmp_path / path)]) == 1
+    assert "error AXC-" in capsys.readouterr().out
+
+
+def test_file_names_in_foreign_bytes_are_printed(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", str(tmp_path / "\udcff.lis")]) == 1
+    assert "AXC-MISSING" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["check", "parameters"])
+def test_help_has_an_example(command: str, capsys: Capture) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        main([command, "--help"])
+    assert f"axcomp {command}" in capsys.readouterr().out.partition("example:")[2]
+
+
+def test_parameters_are_printed_as_a_table(capsys: Capture) -> None:
+    assert main(["parameters"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    row = next(line.split() for line in lines if line.startswith("frict_comp.delay_cycles"))
+    assert row[:6] == ["frict_comp.delay_cycles", "P-COMP-00058", "SGN16", "[0,", "249)", "cycles"]
+    assert sum(map(len, CATALOGUE.values())) == len(lines) - 3 * len(CATALOGUE) + 1
+
+
+def test_parameters_of_one_list_as_json(capsys: Capture) -> None:
+    assert main(["parameters", "--list", "achskw", "--format", "json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert {row["list"] for row in rows} == {"achskw*.lis"}
+    [manual] = [row["ids"] for row in rows if row["name"] == "kw.crosstalk.manual_activation"]
+    assert set(manual.values()) == {"P-COMP-00065", "P-COMP-00073"}
+
+
+def test_the_reference_page_is_current() -> None:
+    assert PAGE.read_text("utf-8") == page()
