@@ -7,8 +7,8 @@ else) or ``Annotated[list[T], N]`` (N elements of T). ``zero`` makes one with ev
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
-from functools import cache
+from collections.abc import Callable, Hashable
+from functools import cache, partial
 from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
 
 Vec = list[float]
@@ -31,7 +31,7 @@ def zeros(n: int) -> list[float]:
 
 def zero(cls: type[Record]) -> Record:
     """Return a record of class ``cls`` with every number 0, every Boolean False and every ``Vec`` empty."""
-    return cls(**{name: _zero_of(hint) for name, hint in fields_of(cast(Hashable, cls)).items()})
+    return cls(*[make() for make in _makers_of(cast(Hashable, cls))])
 
 
 @cache
@@ -40,13 +40,19 @@ def fields_of(cls: Hashable) -> dict[str, Any]:
     return get_type_hints(cast(type, cls), include_extras=True)
 
 
-def _zero_of(hint: Any) -> Any:
+@cache
+def _makers_of(cls: Hashable) -> tuple[Callable[[], Any], ...]:
+    return tuple(_maker_of(hint) for hint in fields_of(cls).values())
+
+
+def _maker_of(hint: Any) -> Callable[[], Any]:
+    """Return what makes the zero of a field: an engine has thousands of them."""
     if get_origin(hint) is Annotated:
         element = get_args(get_args(hint)[0])[0]
         length = hint.__metadata__[0]
-        return [element()] * length if element in _NUMBERS else [_zero_of(element) for _ in range(length)]
+        if element in _NUMBERS:
+            return lambda: [element()] * length
+        return lambda: [zero(element) for _ in range(length)]
     if hint in _NUMBERS:
-        return hint()
-    if hint == Vec:
-        return []
-    return zero(hint)
+        return cast(Callable[[], Any], hint)
+    return list if hint == Vec else partial(zero, hint)
