@@ -112,7 +112,9 @@ class Runtime:
 
     def _machine_identity(self) -> int:
         if self._identity is None:
-            self._identity = identity_of(self.tables)
+            tables = self.tables
+            used = (tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics], tables.pool)
+            self._identity = identity_of(tables.cycle_time, *used)
         return self._identity
 
     def notices(self) -> Iterator[str]:

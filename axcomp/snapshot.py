@@ -20,9 +20,9 @@ class SnapshotError(ValueError):
     """Bytes that are no snapshot of these records; the message says why."""
 
 
-def identity_of(record: Any) -> int:
-    """Return a CRC-32 of the numbers of a record, tables included: equal for equal machines."""
-    return zlib.crc32(array("d", _numbers(record)).tobytes())
+def identity_of(*records: Any) -> int:
+    """Return a CRC-32 of the numbers of the records, tables included: equal for equal machines."""
+    return zlib.crc32(array("d", [number for record in records for number in _numbers(record)]).tobytes())
 
 
 def pack(identity: int, *records: Any) -> bytes:

@@ -1,0 +1,79 @@
+"""Curves, folding and the short way round, against NumPy."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from axcomp.kernel.interpolation import curve_value, fold, nearest
+from axcomp.kernel.record import zero
+from axcomp.kernel.records import Curve, Lookup
+
+numbers = st.floats(-1e6, 1e6)
+
+
+def curve_of(x: list[float], y: list[float]) -> tuple[list[float], Curve]:
+    return [7.0, *x, *y, 7.0], Curve(len(x), 1, 1 + len(x))
+
+
+@given(st.lists(numbers, min_size=1, max_size=30, unique=True).map(sorted), st.data())
+def test_a_curve_is_what_numpy_interpolates(x: list[float], data: st.DataObject) -> None:
+    y = data.draw(st.lists(numbers, min_size=len(x), max_size=len(x)))
+    pool, curve = curve_of(x, y)
+    lookup = zero(Lookup)
+    for at in data.draw(st.lists(st.sampled_from(x) | numbers, min_size=1, max_size=20)):
+        assert curve_value(pool, curve, at, lookup) == pytest.approx(np.interp(at, x, y), rel=1e-9, abs=1e-6)
+
+
+@given(st.lists(numbers, min_size=1, max_size=30, unique=True).map(sorted), st.data())
+def test_a_curve_has_exactly_the_values_of_the_table_at_its_points(x: list[float], data: st.DataObject) -> None:
+    y = data.draw(st.lists(numbers, min_size=len(x), max_size=len(x)))
+    pool, curve = curve_of(x, y)
+    lookup = zero(Lookup)
+    for i in data.draw(st.permutations(range(len(x)))):
+        assert curve_value(pool, curve, x[i], lookup) == y[i]
+
+
+@given(st.data())
+def test_where_the_last_search_ended_changes_no_value(data: st.DataObject) -> None:
+    x = sorted(data.draw(st.lists(numbers, min_size=2, max_size=30, unique=True)))
+    pool, curve = curve_of(x, [math.sin(i) for i in range(len(x))])
+    wandering = zero(Lookup)
+    for at in data.draw(st.lists(numbers | st.sampled_from(x), max_size=40)):
+        assert curve_value(pool, curve, at, wandering) == curve_value(pool, curve, at, zero(Lookup))
+
+
+def test_one_point_is_a_constant() -> None:
+    pool, curve = curve_of([3.0], [0.25])
+    assert [curve_value(pool, curve, x, zero(Lookup)) for x in (-1e15, 2.9, 3.0, 3.1, 1e15)] == [0.25] * 5
+
+
+@given(st.floats(-1e9, 1e9), st.floats(-1e4, 1e4), st.floats(1e-3, 1e4))
+def test_fold_is_the_remainder_in_one_range(x: float, start: float, length: float) -> None:
+    folded = fold(x, start, length)
+    rounding = 1e-15 * (abs(x) + abs(start) + length) * 4
+    assert start - rounding <= folded < start + length
+    turns = (x - folded) / length
+    assert abs(turns - round(turns)) * length <= rounding
+
+
+@given(st.floats(-1e4, 1e4), st.floats(1e-3, 1e4))
+def test_fold_leaves_what_is_in_the_range(start: float, length: float) -> None:
+    for x in np.linspace(start, start + length, 7, endpoint=False):
+        if (x - start) / length < 1.0 and start <= x < start + length:
+            assert fold(float(x), start, length) == x
+
+
+@given(st.floats(-1e6, 1e6), st.floats(1e-3, 1e4))
+def test_nearest_is_the_ieee_remainder(change: float, length: float) -> None:
+    short = nearest(change, length)
+    expected = math.remainder(change, length)
+    rounding = 4e-15 * (abs(change) + length)
+    assert abs(short) <= length / 2 + rounding
+    assert min(abs(short - expected), abs(abs(short - expected) - length)) <= rounding
+
+
+def test_a_length_of_0_is_no_modulo_axis() -> None:
+    assert nearest(-720.5, 0.0) == -720.5

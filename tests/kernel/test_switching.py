@@ -1,0 +1,201 @@
+"""Switching: sin², commands and their standstill rule, references, manual activation, reset, program end, release."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from driving import drive, soft, walk
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import ArrayLike, NDArray
+
+from axcomp.machine import Axis, Cross, CrosstalkCurve, Friction, Leadscrew, Machine, Plane
+
+N = 6
+
+
+def compensated(kind: str, *, manual: bool = False, cycles: int = N) -> Machine:
+    """Axis S corrected by 1 at full weight, by one kind; M is its master."""
+    corrections = {
+        "cross": Cross(1, (0.0,), (1.0,), cycles, manual),
+        "plane": Plane(1, 1, 0.0, 0.0, 1.0, 1.0, ((1.0,),), cycles, manual),
+        "crosstalk": CrosstalkCurve(1, (0.0,), (1.0,), cycles, manual),
+        "leadscrew": Leadscrew((0.0,), (-1.0,), manual_activation=manual),
+        "friction": Friction((0.0,), (1.0,)),
+    }
+    return Machine((Axis(1, "M"), replace(Axis(2, "S"), **{kind: corrections[kind]})))
+
+
+SOFT = ("cross", "plane", "crosstalk")
+"""The kinds with n_cycles; they wait for standstill."""
+
+
+def weights(kind: str, columns: dict[str, ArrayLike], **options: object) -> NDArray[np.float64]:
+    run = drive(compensated(kind, **options), columns)
+    assert (run[f"S.{kind}_active"] == (run[f"S.{kind}_correction"] > 0)).all()
+    assert run["S.corrected_setpoint"] == pytest.approx(
+        np.broadcast_to(columns.get("S.setpoint", 0.0), len(run["S.correction"])) + run[f"S.{kind}_correction"]
+    )
+    return run[f"S.{kind}_correction"]
+
+
+def flags(text: str) -> NDArray[np.bool_]:
+    """``"11.1"``: True, True, False, True."""
+    return np.array([letter != "." for letter in text])
+
+
+class TestRamp:
+    @pytest.mark.parametrize("kind", SOFT)
+    @settings(max_examples=5, deadline=None)
+    @given(cycles=st.integers(0, 20), enable=st.lists(st.booleans(), min_size=1, max_size=80))
+    def test_any_sequence_of_commands_against_the_whole_walk(self, kind: str, cycles: int, enable: list[bool]) -> None:
+        w = weights(kind, {f"S.{kind}_enable": enable}, cycles=cycles)
+        n = max(cycles, 1)
+        assert w == pytest.approx(soft(walk(enable, n, n if enable[0] else 0), n), abs=1e-15)
+
+    @pytest.mark.parametrize("kind", SOFT)
+    def test_on_takes_n_cycles_and_the_first_one_counts(self, kind: str) -> None:
+        w = weights(kind, {f"S.{kind}_enable": flags(".111111111")})
+        assert w == pytest.approx([0, *np.sin(np.pi / 12 * np.arange(1, 7)) ** 2, 1, 1, 1], abs=1e-15)
+
+    @pytest.mark.parametrize("cycles", [0, 1])
+    def test_0_and_1_cycles_are_at_once(self, cycles: int) -> None:
+        assert weights("cross", {"S.cross_enable": flags("1.1..1")}, cycles=cycles).tolist() == [1, 0, 1, 0, 0, 1]
+
+    def test_toggled_midway_it_turns_round_where_it_is(self) -> None:
+        w = weights("cross", {"S.cross_enable": flags("...111...11")})
+        assert w == pytest.approx(np.sin(np.pi / 12 * np.array([0, 0, 0, 1, 2, 3, 2, 1, 0, 1, 2])) ** 2, abs=1e-15)
+
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew", "friction"])
+    def test_what_is_on_at_the_start_begins_at_full_weight(self, kind: str) -> None:
+        run = drive(compensated(kind), {"S.velocity": [0.0 if kind in SOFT else 5.0]})
+        assert run["S.current" if kind == "friction" else f"S.{kind}_correction"] == [1.0]
+
+    def test_only_the_switching_is_filtered_never_the_moving_value(self) -> None:
+        slave = Axis(2, "S", cross=Cross(1, (0.0, 100.0), (0.0, 100.0), N))
+        master = np.array([0.0, 100.0, -50.0, 60.0, 60.0, 10.0, 0.0, 90.0, 3.0, 80.0])
+        run = drive(Machine((Axis(1, "M"), slave)), {"M.setpoint": master, "S.cross_enable": flags("111....111")})
+        w = soft(walk(flags("111....111"), N, N), N)
+        assert run["S.cross_correction"] == pytest.approx(w * np.clip(master, 0, 100), abs=1e-13)
+
+    def test_the_leadscrew_switches_at_once(self) -> None:
+        assert weights("leadscrew", {"S.leadscrew_enable": flags("1..1")}).tolist() == [1, 0, 0, 1]
+
+
+class TestStandstill:
+    @pytest.mark.parametrize("kind", SOFT)
+    @pytest.mark.parametrize("motion", ["setpoint", "velocity"])
+    def test_a_request_in_motion_waits_until_the_slave_stands(self, kind: str, motion: str) -> None:
+        moves = flags("..111111.......")
+        columns = {"S.setpoint": np.cumsum(moves)} if motion == "setpoint" else {"S.velocity": 2.0 * moves}
+        w = weights(kind, {f"S.{kind}_enable": flags("1111..........."), **columns})
+        assert w == pytest.approx(soft(walk(flags("11111111......."), N, N), N), abs=1e-15)
+
+    @pytest.mark.parametrize("kind", SOFT)
+    def test_a_request_that_is_taken_back_in_motion_does_nothing(self, kind: str) -> None:
+        w = weights(kind, {f"S.{kind}_enable": flags("1..1.11111"), "S.velocity": 1.0 * flags("1111111...")})
+        assert (w == 1.0).all()
+
+    @pytest.mark.parametrize("kind", SOFT)
+    def test_a_ramp_that_has_begun_goes_on_in_motion(self, kind: str) -> None:
+        w = weights(kind, {f"S.{kind}_enable": flags("1........"), "S.velocity": 1.0 * flags("..1111111")})
+        assert w == pytest.approx(soft(walk(flags("1........"), N, N), N), abs=1e-15)
+
+    @pytest.mark.parametrize("kind", SOFT)
+    def test_the_motion_of_the_master_does_not_matter(self, kind: str) -> None:
+        w = weights(kind, {f"S.{kind}_enable": flags("1......."), "M.velocity": 9.0, "M.setpoint": np.arange(8.0)})
+        assert w == pytest.approx(soft(walk(flags("1......."), N, N), N), abs=1e-15)
+
+    def test_leadscrew_and_friction_do_not_wait(self) -> None:
+        moving = {"S.velocity": 3.0, "S.setpoint": 0.003 * np.arange(4)}
+        assert weights("leadscrew", {"S.leadscrew_enable": flags("1..1"), **moving}).tolist() == [1, 0, 0, 1]
+        run = drive(compensated("friction"), {"S.friction_enable": flags("1..1"), **moving})
+        assert run["S.current"].tolist() == [1, 0, 0, 1]
+
+
+REFERENCES = {"cross": ["M"], "plane": ["M", "S"], "leadscrew": ["S"]}
+
+
+class TestReference:
+    @pytest.mark.parametrize(("kind", "axis"), [(kind, axis) for kind, axes in REFERENCES.items() for axis in axes])
+    @pytest.mark.parametrize("velocity", [0.0, 3.0])
+    def test_losing_it_is_off_at_once_and_gaining_it_on_softly_even_in_motion(
+        self, kind: str, axis: str, velocity: float
+    ) -> None:
+        w = weights(kind, {f"{axis}.referenced": flags("11..1111111"), "S.velocity": velocity})
+        n = N if kind in SOFT else 1
+        assert w == pytest.approx([1, 1, 0, 0, *soft(np.clip(np.arange(1, 8), 0, n), n)], abs=1e-15)
+
+    def test_gained_after_the_start_it_comes_softly(self) -> None:
+        w = weights("cross", {"M.referenced": flags("..1111111")})
+        assert w == pytest.approx([0, 0, *soft(np.clip(np.arange(1, 8), 0, N), N)], abs=1e-15)
+
+    def test_lost_amid_a_ramp_it_begins_again(self) -> None:
+        w = weights("cross", {"M.referenced": flags("1.111.11")})
+        assert w == pytest.approx([1, 0, *soft([1, 2, 3], N), 0, *soft([1, 2], N)], abs=1e-15)
+
+    def test_switched_off_while_it_is_lost_it_stays_off(self) -> None:
+        columns = {"S.velocity": 1.0, "M.referenced": flags("11...11111"), "S.cross_enable": flags("1.........")}
+        assert weights("cross", columns).tolist() == [1, 1] + [0] * 8
+
+    def test_crosstalk_without_adaptation_axes_needs_none(self) -> None:
+        assert weights("crosstalk", {"M.referenced": flags("..."), "S.referenced": False}).tolist() == [1, 1, 1]
+
+
+class TestManual:
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
+    def test_it_is_off_until_the_command_comes(self, kind: str) -> None:
+        w = weights(kind, {f"S.{kind}_enable": flags("..1111111")}, manual=True)
+        n = N if kind in SOFT else 1
+        assert w == pytest.approx([0, 0, *soft(np.clip(np.arange(1, 8), 0, n), n)], abs=1e-15)
+
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
+    @pytest.mark.parametrize("event", ["reset", "program_end"])
+    def test_reset_and_program_end_switch_it_off_until_the_next_edge(self, kind: str, event: str) -> None:
+        enable = flags("1111111111111.1")
+        n = N if kind in SOFT else 1
+        w = weights(kind, {f"S.{kind}_enable": enable, event: flags("..1............")}, manual=True)
+        on = flags("11............1")
+        assert w == pytest.approx(soft(walk(on, n, n), n), abs=1e-15)
+
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
+    @pytest.mark.parametrize("event", ["reset", "program_end"])
+    def test_an_automatic_one_does_not_care(self, kind: str, event: str) -> None:
+        assert (weights(kind, {f"S.{kind}_enable": True, event: flags(".1.1")}) == 1.0).all()
+
+    @pytest.mark.parametrize("kind", SOFT)
+    def test_reset_in_motion_waits_for_standstill(self, kind: str) -> None:
+        columns = {f"S.{kind}_enable": True, "reset": flags(".1........"), "S.velocity": 1.0 * flags("1111......")}
+        w = weights(kind, columns, manual=True)
+        assert w == pytest.approx(soft(walk(flags("1111......"), N, N), N), abs=1e-15)
+
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
+    def test_release_of_the_axis_is_off_at_once_even_in_motion_and_for_good(self, kind: str) -> None:
+        columns = {f"S.{kind}_enable": True, "S.referenced": flags("11.11111"), "S.velocity": 1.0 * flags("11111...")}
+        assert weights(kind, columns, manual=True).tolist() == [1, 1, 0, 0, 0, 0, 0, 0]
+
+    @pytest.mark.parametrize("kind", ["cross", "plane"])
+    def test_loss_of_the_masters_reference_too(self, kind: str) -> None:
+        columns = {f"S.{kind}_enable": True, "M.referenced": flags("11.11111"), "S.velocity": 1.0 * flags("11111...")}
+        assert weights(kind, columns, manual=True).tolist() == [1, 1, 0, 0, 0, 0, 0, 0]
+
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
+    @pytest.mark.parametrize("obstacle", ["reset", "program_end", "S.referenced"])
+    def test_a_command_that_comes_too_early_is_refused(self, kind: str, obstacle: str) -> None:
+        obstructed = flags("11111....")
+        columns = {f"S.{kind}_enable": flags("..1111.11"), obstacle: obstructed if "." not in obstacle else ~obstructed}
+        w = weights(kind, columns, manual=True)
+        n = N if kind in SOFT else 1
+        assert w == pytest.approx([0] * 7 + soft(np.clip([1, 2], 0, n), n).tolist(), abs=1e-15)
+
+    def test_enabled_from_the_start_it_is_on_from_the_start(self) -> None:
+        assert weights("cross", {"S.cross_enable": flags("111")}, manual=True).tolist() == [1, 1, 1]
+        assert weights("cross", {"S.cross_enable": flags("11"), "reset": flags("1.")}, manual=True).tolist() == [0, 0]
+
+    @pytest.mark.parametrize("event", ["reset", "program_end", "S.referenced"])
+    def test_what_happens_while_the_axis_is_held_is_not_missed(self, event: str) -> None:
+        happens = flags("..1......")
+        columns = {"S.cross_enable": True, event: happens if "." not in event else ~happens}
+        setpoint = np.where(flags(".111....."), np.nan, 0.0)
+        run = drive(compensated("cross", manual=True), {**columns, "S.setpoint": setpoint})
+        assert run["S.cross_correction"] == pytest.approx([1, 1, 1, 1, *soft([5, 4, 3, 2, 1], N)])
