@@ -56,6 +56,8 @@ NO_VECTOR: Triple = (0.0, 0.0, 0.0)
 NOMINAL_DIRECTIONS: tuple[Triple, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) * 2
 UNIT_TOLERANCE = 1e-6
 """How far the length of a scaled vector may be from 1."""
+COPLANAR = 1e-6
+"""Volume spanned by the directions of X, Y and Z below which they lie in one plane."""
 
 
 def is_angle(name: str) -> bool:
@@ -120,7 +122,7 @@ class Volumetric:
     workpiece_axes : int
         How many of them, counted from the workpiece, carry the workpiece (P-VOLC-00008).
     errors : tuple of ErrorTable
-        At most one table for each error; an error that has none is zero.
+        At most one table for each error; an error that has none is zero. Lists give them in the order of ``ERRORS``.
     tool_position : (float, float, float)
         Tool tip at tool length 0 when all axes are at 0, mm (``P0*``).
     tool_orientation : (float, float, float)

@@ -6,12 +6,14 @@ from typing import NamedTuple
 
 from .catalogue_compensation import COMPENSATION
 from .catalogue_machine import AXIS, START_UP
+from .catalogue_volumetric import VOLUMETRIC
 from .parameter import ListKind, Parameter, key_of
 
 CATALOGUE: dict[ListKind, tuple[Parameter, ...]] = {
     ListKind.START_UP: START_UP,
     ListKind.AXIS: AXIS,
     ListKind.COMPENSATION: COMPENSATION,
+    ListKind.VOLUMETRIC: VOLUMETRIC,
 }
 """The parameters of each kind of list, in the order of the manuals."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..volumetric import COMPENSATIONS_MAX
 from .parameter import DataType, Manual, Parameter, Quantity
 
 
@@ -42,7 +43,8 @@ START_UP = (
         DataType.UNS32,
         0,
         _start_up("00100"),
-        index_max=(4,),
+        index_max=(COMPENSATIONS_MAX - 1,),
+        index_code="70506",
     ),
     Parameter(
         "vol_comp[i].file_name",
@@ -50,7 +52,8 @@ START_UP = (
         DataType.STRING,
         "",
         _start_up("00101"),
-        index_max=(4,),
+        index_max=(COMPENSATIONS_MAX - 1,),
+        index_code="70506",
     ),
 )
 """``hochlauf.lis``. ``zahl_mds`` and ``achs_mds`` are ours, in the shape of ``zahl_kw`` and ``achs_kw``."""

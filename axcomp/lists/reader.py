@@ -16,6 +16,7 @@ from .findings import Finding, Findings, ListError, Severity
 from .parameter import ListKind
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues, read_values
+from .volumetric_list import read_volumetric
 
 
 class Reading(NamedTuple):
@@ -99,6 +100,7 @@ class _MachineReader:
         tables = self._read_compensation_lists(lists, axes, default)
         # Reading a table may add the axes it refers to.
         compensations = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
+        volumetric = read_volumetric(lists, self.files, axes, self.findings)
         names = axes.names()
         return Machine(
             tuple(
@@ -108,10 +110,13 @@ class _MachineReader:
                     type=axis.type,
                     modulo=axis.modulo,
                     backlash_cycles=axis.backlash_cycles,
+                    volumetric_limit=axis.s_limit or None,
+                    gantry_master=axis.gantry_master or None,
                     **compensations.get(axis.number, {}),
                 )
                 for axis in axes.all()
-            )
+            ),
+            volumetric,
         )
 
     def _values(self, path: Path, kind: ListKind, fallback: ListValues | None = None) -> ListValues | None:

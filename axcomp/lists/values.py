@@ -222,7 +222,11 @@ class _ValueReader:
         """Check an entry and keep its value, or the default instead."""
         for index, limit in zip(entry.indices, column.index_max, strict=False):
             if index > limit:
-                self._note("AXC-INDEX", entry, f"{entry.name}: the index goes to {limit} only; it is not taken.")
+                self._note(
+                    column.parameter.index_code,
+                    entry,
+                    f"{entry.name}: the index goes to {limit} only; it is not taken.",
+                )
                 return
         if entry.indices in column.cells:
             line = column.cells[entry.indices][1]

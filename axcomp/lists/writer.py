@@ -15,12 +15,16 @@ from .leadscrew import format_leadscrew
 from .parameter import ListKind
 from .plane import format_plane
 from .start_up import START_UP_NAME
+from .volumetric_writer import check_records, format_parameters, format_volumetric_list, list_file, parameter_file
 
 _MODULO_MODE = 0x4
 
 
 def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
-    """Write the start-up list and, for each axis, its axis list and (where it needs one) its compensation list.
+    """Write the start-up list, the lists of the axes and of the volumetric compensations.
+
+    Each axis has an axis list and, where it needs one, a compensation list; each volumetric compensation its list and
+    a parameter file.
 
     Returns
     -------
@@ -39,6 +43,10 @@ def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
         texts[_axis_file(axis)] = format_axis_list(axis)
         if _is_compensated(axis):
             texts[_compensation_file(axis)] = format_compensation_list(axis)
+    for volumetric in machine.volumetric:
+        check_records(volumetric)
+        texts[list_file(volumetric)] = format_volumetric_list(volumetric)
+        texts[parameter_file(volumetric)] = format_parameters(volumetric)
     data = {name: text.encode() for name, text in texts.items()}
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -62,6 +70,11 @@ def format_start_up_list(machine: Machine) -> str:
     for i, axis in enumerate(compensated):
         lines.add("achs_kw[i]", _compensation_file(axis), i)
         lines.add("achs_kw_log_ax_nr[i]", axis.number, i)
+    if machine.volumetric:
+        lines.heading("Volumetric compensations")
+    for volumetric in machine.volumetric:
+        lines.add("vol_comp[i].max_records", volumetric.max_records, volumetric.index)
+        lines.add("vol_comp[i].file_name", list_file(volumetric), volumetric.index)
     return lines.text()
 
 
@@ -78,6 +91,10 @@ def format_axis_list(axis: Axis) -> str:
     for kind, name in ACTIVATION.items():
         lines.add(name, getattr(axis, kind) is not None)
     lines.add("lr_param.n_backlash_cyc", axis.backlash_cycles)
+    if axis.volumetric_limit is not None:
+        lines.add_converted("lr_param.vol_comp.s_limit", axis.volumetric_limit)
+    if axis.gantry_master is not None:
+        lines.add("kenngr.gantry_ax_nr", axis.gantry_master)
     return lines.text()
 
 

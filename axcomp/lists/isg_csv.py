@@ -1,0 +1,85 @@
+"""ISG CSV parameter files of the volumetric compensation (manual 003, 6.3.2).
+
+A header names the columns, axes and parameters in any order; the records follow, one a line. Columns are separated by
+blanks, tabs, commas or semicolons. ``//`` begins a comment; a line that begins with ``#`` ends the block, and the next
+line is a new header. Values are in mm and rad, positions of axes in mm and °.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..volumetric import LETTERS
+from .findings import Findings
+from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers
+
+_SEPARATORS = str.maketrans(",;", "  ")
+
+
+def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBlock]:
+    """Return the blocks of a file that have records; ``findings`` grows by what is wrong. Never raises on content."""
+    blocks: list[ParameterBlock] = []
+    columns: _Columns | None = None
+    for line, written in enumerate(text.split("\n"), 1):
+        cells = written.partition("//")[0].translate(_SEPARATORS).split()
+        if not cells:
+            continue
+        if cells[0].startswith("#"):
+            columns = None
+            continue
+        if cells[-1] in ELISIONS:
+            note_elision(cells.pop(), file, line, findings)
+            if not cells:
+                continue
+        if columns is None:
+            columns = _Columns([cell.upper() for cell in cells], file, line, findings)
+            blocks.append(columns.block)
+        else:
+            columns.take(cells, line, findings)
+    for block in blocks:
+        if not block.rows:
+            message = "There is no record below this header; its columns are not taken."
+            findings.add("AXC-NO-RECORD", file, block.line, " ".join(block.names), message)
+        check_values(block, findings)
+    return [block for block in blocks if block.rows]
+
+
+class _Columns:
+    """A header: which column of its records goes where."""
+
+    def __init__(self, labels: list[str], file: str, line: int, findings: Findings) -> None:
+        self._width = len(labels)
+        arguments: dict[str, int] = {}
+        names: dict[str, int] = {}
+        for place, label in enumerate(labels):
+            if label in arguments or label in names:
+                message = f"{label} has two columns; the compensation stays off."
+                findings.add("70469", file, line, label, message, group="")
+            elif label in LETTERS:
+                arguments[label] = place
+            elif check_name(label, file, line, findings):
+                names[label] = place
+        self._places = [*arguments.values(), *names.values()]
+        self._as_written = self._places == list(range(self._width))
+        self.block = ParameterBlock(file, line, tuple(arguments), tuple(names))
+
+    def take(self, cells: list[str], line: int, findings: Findings) -> None:
+        """Add a record, or note what is wrong with it."""
+        block = self.block
+        if len(cells) != self._width:
+            message = f"The record has {len(cells)} columns, its header {self._width}; the compensation stays off."
+            findings.add("AXC-RECORD", block.file, line, "", message)
+            return
+        row = numbers(cells, block.file, line, "", findings)
+        if row is not None:
+            block.rows.append(row if self._as_written else [row[place] for place in self._places])
+            block.lines.append(line)
+
+
+def write_isg_csv(blocks: Iterable[ParameterBlock]) -> str:
+    """Return the text of a file with these blocks; it reads back to the same numbers."""
+    parts = []
+    for block in blocks:
+        lines = ["\t".join((*block.arguments, *block.names)), *("\t".join(map(repr, row)) for row in block.rows)]
+        parts.append("\n".join(lines) + "\n")
+    return "#\n".join(parts)

@@ -1,0 +1,294 @@
+"""The volumetric lists (``vol_comp*.lis``) that a start-up list names, with their parameter files.
+
+An error in a list or a file keeps its compensation off: with half of its parameters it would correct wrongly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..machine import AxisType
+from ..volumetric import (
+    AXIS_NUMBERS,
+    CENTERS,
+    COMPENSATIONS_MAX,
+    COPLANAR,
+    DIRECTIONS,
+    FILES_MAX,
+    LETTERS,
+    LINEAR,
+    NO_VECTOR,
+    NOMINAL_DIRECTIONS,
+    OFFSETS,
+    TOOL_ORIENTATION,
+    TOOL_POSITION,
+    UNIT_TOLERANCE,
+    ErrorTable,
+    Triple,
+    Volumetric,
+)
+from .axes import Axes, AxisSettings
+from .catalogue_volumetric import ETALON_EXCHANGE
+from .etalon import read_etalon
+from .files import Files
+from .findings import Findings
+from .isg_csv import read_isg_csv
+from .parameter import ListKind
+from .start_up import MachineFiles
+from .values import ListValues, read_values
+from .volumetric_blocks import ParameterBlock
+from .volumetric_parameters import Parameters, assemble
+
+LIMIT_MAX = 429_496.7295
+"""Largest s_limit that an axis list can hold, mm."""
+
+_FILE_NAME, _MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
+
+
+def read_volumetric(lists: MachineFiles, files: Files, axes: Axes, findings: Findings) -> tuple[Volumetric, ...]:
+    """Return the volumetric compensations of a machine; where there are no axis lists, ``axes`` grows by their axes."""
+    start_up = lists.start_up
+    if start_up is None:
+        return ()
+    found = []
+    for index in range(COMPENSATIONS_MAX):
+        if name := start_up.text(_FILE_NAME, index):
+            parameter = _FILE_NAME.replace("[i]", f"[{index}]")
+            path = files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
+            text = None if path is None else files.text(path)
+            if path is not None and text is not None:
+                values = read_values(text, str(path), ListKind.VOLUMETRIC, findings)
+                volumetric = _VolumetricReader(index, values, lists, files, axes, findings).read()
+                if volumetric is not None:
+                    found.append(volumetric)
+    return tuple(found)
+
+
+class _VolumetricReader:
+    """Reads one volumetric list."""
+
+    def __init__(
+        self, index: int, values: ListValues, lists: MachineFiles, files: Files, axes: Axes, findings: Findings
+    ) -> None:
+        self.index = index
+        self.values = values
+        self.lists = lists
+        self.files = files
+        self.axes = axes
+        self.findings = findings
+
+    def read(self) -> Volumetric | None:
+        """Return the compensation; None where an error keeps it off."""
+        errors_before = self.findings.errors()
+        values = self.values
+        chain = self._chain()
+        parameters = assemble(
+            self._blocks(), values.text("interpolation"), values.flag("enable_splicing"), self.findings
+        )
+        self._check_records(parameters)
+        assigned = self._assigned(chain, parameters)
+        directions = tuple(
+            self._direction(names, parameters) or nominal
+            for names, nominal in zip(DIRECTIONS, NOMINAL_DIRECTIONS, strict=True)
+        )
+        self._check_directions(chain, directions, parameters)
+        errors = tuple(self._acting_errors(chain, parameters))
+        if values.flag("use_axis_offsets"):
+            self._note("AXC-NOT-MODELLED", "use_axis_offsets", "Offsets of the axes are not modelled; they are 0.")
+        if self.findings.errors() > errors_before:
+            return None
+        self._check_limits(assigned)
+        return Volumetric(
+            index=self.index,
+            axes=tuple(assigned.items()),
+            chain=chain,
+            workpiece_axes=values.integer("workpiece_axes"),
+            errors=errors,
+            tool_position=_triple(TOOL_POSITION, parameters),
+            tool_orientation=self._direction(TOOL_ORIENTATION, parameters) or NO_VECTOR,
+            centers=tuple(_triple(names, parameters) for names in CENTERS),
+            directions=directions,
+            offsets=tuple(_value(name, parameters) for name in OFFSETS),
+            alternative_model=values.flag("alternative_model"),
+            negate=self._letters("negate"),
+            set_to_zero=self._letters("set_to_zero"),
+            manual_activation=values.flag("manual_activation"),
+            filter_steps=values.integer("filter_steps"),
+            associate_to_channel=values.flag("associate_to_channel"),
+            max_records=self._max_records(),
+            files=tuple(values.text("file[j]", j) for j in range(FILES_MAX)),
+            diagnosis_file=values.text("diagnosis_file"),
+        )
+
+    def _chain(self) -> str:
+        chain = self.values.text("chain").replace(" ", "").upper()
+        if not (len(set(chain)) == len(chain) and set(LINEAR) <= set(chain) <= set(LETTERS)):
+            message = f"The chain {chain} is not X, Y, Z and some of A, B, C, each once; the compensation stays off."
+            self._note("AXC-CHAIN", "chain", message)
+        elif self.values.integer("workpiece_axes") > len(chain):
+            message = f"workpiece_axes is larger than the chain {chain}; the compensation stays off."
+            self._note("AXC-CHAIN", "workpiece_axes", message)
+        return chain
+
+    def _blocks(self) -> Iterator[ParameterBlock]:
+        """Yield what the parameter files hold."""
+        empty = True
+        for j in range(FILES_MAX):
+            name = self.values.text("file[j]", j)
+            if not name:
+                continue
+            path = self.files.named(self.lists.folder, name, (*self.values.place("file[j]", j), f"file[{j}]"))
+            text = None if path is None else self.files.text(path)
+            if text is None:
+                empty = False
+                continue
+            etalon = self.values.text("file_format[j]", j) == ETALON_EXCHANGE
+            for block in (read_etalon if etalon else read_isg_csv)(text, str(path), self.findings):
+                empty = False
+                yield block
+        if empty:
+            self._note("AXC-NO-RECORD", "file[0]", "The compensation has no parameters; it corrects nothing.")
+
+    def _max_records(self) -> int:
+        start_up = self.lists.start_up
+        return 0 if start_up is None else start_up.integer(_MAX_RECORDS, self.index)
+
+    def _check_records(self, parameters: Parameters) -> None:
+        start_up = self.lists.start_up
+        bound, records = self._max_records(), parameters.records()
+        if start_up is not None and records > bound:
+            given = start_up.given(_MAX_RECORDS, self.index)
+            place = start_up.place(_MAX_RECORDS if given else _FILE_NAME, self.index)
+            shown = _MAX_RECORDS.replace("[i]", f"[{self.index}]")
+            reserved = f"{bound} are reserved" if given else f"{shown} is missing"
+            message = f"The parameter files have {records} records, but {reserved}; the compensation stays off."
+            self.findings.add("AXC-MAX-RECORDS", *place, shown, message)
+
+    def _assigned(self, chain: str, parameters: Parameters) -> dict[str, int]:
+        """Return the logical axis number of each letter; ``LN*`` in a parameter file beats the list."""
+        assigned: dict[str, int] = {}
+        for letter, name in zip(LETTERS, AXIS_NUMBERS, strict=True):
+            place = self.values.place(letter.lower())
+            shown = letter.lower()
+            number: float = self.values.integer(letter.lower())
+            if name in parameters.description:
+                constant = parameters.description[name]
+                number, place, shown = constant.value, (constant.file, constant.line), name
+            fault = ""
+            if number in assigned.values():
+                fault = "is the number of another of its axes"
+            elif number and not (number == int(number) and self._exists(int(number), letter)):
+                fault = "is no logical number of an axis of the machine"
+            elif number and not self._has_type(int(number), letter):
+                fault = f"is no {'translatory' if letter in LINEAR else 'rotary'} axis"
+            elif not number and letter in {*chain, *LINEAR, *_arguments(parameters)}:
+                place = place if place[1] else self.values.place("chain")
+                fault = "is not assigned"
+            if fault:
+                what = f"{shown} = {number:g}" if number else shown
+                self.findings.add("AXC-ASSIGNMENT", *place, shown, f"{what} {fault}; the compensation stays off.")
+            elif number:
+                assigned[letter] = int(number)
+        return assigned
+
+    def _exists(self, number: int, letter: str) -> bool:
+        if self.axes.invent and 0 < number < 2**16:
+            if number not in self.axes:
+                self.axes.add(AxisSettings(number), *self.values.place(letter.lower()), letter.lower())
+            if number in self.axes and letter not in LINEAR:
+                self.axes.get(number).type = AxisType.ROTARY
+        return number in self.axes
+
+    def _has_type(self, number: int, letter: str) -> bool:
+        return (self.axes.get(number).type is AxisType.TRANSLATORY) == (letter in LINEAR)
+
+    def _check_limits(self, assigned: dict[str, int]) -> None:
+        """Look for the limits that switching on will ask for."""
+        for letter in LINEAR:
+            for axis in self.axes.all():
+                if assigned[letter] not in (axis.number, axis.gantry_master):
+                    continue
+                if self.axes.invent:
+                    # Without axis lists a list can be tried on its own: nothing limits it then.
+                    axis.s_limit = axis.s_limit or LIMIT_MAX
+                if not axis.s_limit:
+                    message = (
+                        f"Axis {axis.number} has no lr_param.vol_comp.s_limit: "
+                        f"volumetric compensation {self.index} cannot be switched on."
+                    )
+                    self._note("AXC-LIMIT", letter.lower(), message)
+                if axis.v_limit:
+                    message = f"lr_param.vol_comp.v_limit of axis {axis.number} is not modelled; it limits nothing."
+                    self._note("AXC-NOT-MODELLED", letter.lower(), message)
+
+    def _direction(self, names: tuple[str, ...], parameters: Parameters) -> Triple | None:
+        """Return a vector of length 1; None where it is not given or 0."""
+        vector = _triple(names, parameters)
+        given = [parameters.description[name] for name in names if name in parameters.description]
+        if not given:
+            return None
+        length = math.sqrt(sum(x * x for x in vector))
+        if length == 0.0:
+            self.findings.add(
+                "AXC-VECTOR",
+                given[0].file,
+                given[0].line,
+                names[0],
+                f"The vector {' '.join(names)} is 0; it is left out.",
+            )
+            return None
+        if abs(length - 1.0) <= UNIT_TOLERANCE:
+            return vector
+        message = f"The vector {' '.join(names)} has length {length:g}; it is scaled to 1."
+        self.findings.add("AXC-VECTOR", given[0].file, given[0].line, names[0], message)
+        x, y, z = (component / length for component in vector)
+        return x, y, z
+
+    def _check_directions(self, chain: str, directions: tuple[Triple, ...], parameters: Parameters) -> None:
+        """Find X, Y and Z in one plane, wherever the rotary axes stand; in other chains it depends on these."""
+        if "".join(letter for letter in chain if letter in LINEAR) not in chain:
+            return
+        (a, b, c), (d, e, f), (g, h, i) = directions[:3]
+        if abs(a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)) < COPLANAR:
+            name = next(name for names in DIRECTIONS[:3] for name in names if name in parameters.description)
+            constant = parameters.description[name]
+            message = "The directions of X, Y and Z lie in one plane; the compensation stays off."
+            self.findings.add("AXC-SINGULAR", constant.file, constant.line, name, message)
+
+    def _acting_errors(self, chain: str, parameters: Parameters) -> Iterator[ErrorTable]:
+        for name, table in parameters.errors.items():
+            if name[-1] in chain:
+                yield table
+            else:
+                file, line = parameters.places[name]
+                message = f"{name} is not used: {name[-1]} is not in the chain {chain}."
+                self.findings.add("AXC-UNUSED", file, line, name, message, group=f"errors of {name[-1]}")
+
+    def _letters(self, name: str) -> str:
+        """Return the linear axes that an entry names, in the order X, Y, Z."""
+        text = self.values.text(name).upper()
+        strangers = set(text) - set(LINEAR) - set(" ,")
+        if strangers:
+            message = f"{name}: {' '.join(sorted(strangers))} is not taken; only X, Y and Z are corrected."
+            self._note("AXC-RANGE", name, message)
+        return "".join(letter for letter in LINEAR if letter in text)
+
+    def _note(self, code: str, name: str, message: str) -> None:
+        key, _, index = name.partition("[")
+        place = self.values.place(f"{key}[j]", int(index[:-1])) if index else self.values.place(key)
+        self.findings.add(code, *place, name, message)
+
+
+def _arguments(parameters: Parameters) -> set[str]:
+    return {letter for table in parameters.errors.values() for letter in table.arguments}
+
+
+def _value(name: str, parameters: Parameters) -> float:
+    constant = parameters.description.get(name)
+    return 0.0 if constant is None else constant.value
+
+
+def _triple(names: tuple[str, ...], parameters: Parameters) -> Triple:
+    x, y, z = (_value(name, parameters) for name in names)
+    return x, y, z
