@@ -523,3 +523,31 @@ def test_booleans_are_numbers_or_words(entry: str, expected: bool, read_lists: R
 def test_each_axis_without_findings_is_equal_to_one_made_by_hand(read_lists: ReadLists) -> None:
     files = {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, "kopf.log_achs_name X (first axis)\n")}
     assert read_lists(files).machine.axes == (Axis(1, "X"),)
+
+
+@pytest.mark.parametrize(
+    ("interval", "ends_differ", "expected", "acts"),
+    [
+        (900_000, True, [], True),  # 180° of 360°: the gap is interpolated
+        (1_800_000, True, ["AXC-MODULO-SEAM"], True),
+        (1_800_000, False, [], True),
+        (1_800_001, False, ["AXC-MODULO-SPAN"], False),
+    ],
+)
+def test_a_modulo_table_is_compared_with_the_range_wherever_that_begins(
+    interval: int, ends_differ: bool, expected: list[str], acts: bool, read_lists: ReadLists
+) -> None:
+    table = f"{LEADSCREW}kw.ssfk.modulo 1\nkw.ssfk.kw_startpos -1800000\n".replace("100000", str(interval), 1)
+    files = {
+        "achskw1.lis": table if ends_differ else table.replace("pos 3", "pos 1"),
+        "achsmd1.lis": axis_list(
+            1,
+            "lr_param.ssfk 1\nkenngr.achs_typ 2\nkenngr.achs_mode ACHSMODE_MODULO\n"
+            "getriebe[0].modulou -1800000\ngetriebe[0].moduloo 1800000\n",
+        ),
+    }
+    reading = read_lists(files)
+    assert [finding.code for finding in reading.findings] == expected
+    leadscrew = reading.machine.axes[0].leadscrew
+    assert (leadscrew is not None) == acts
+    assert leadscrew is None or leadscrew.modulo
