@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import uuid
@@ -63,4 +64,5 @@ def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
     except OSError as error:
         raise BuildError(f"{output} cannot be written: {error.strerror or error}") from None
     finally:
-        unfinished.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            unfinished.unlink(missing_ok=True)

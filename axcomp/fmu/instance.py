@@ -161,8 +161,16 @@ class Instance:
     def set(self, type_name: str, references: Sequence[int], values: Sequence[Value]) -> None:
         """Set variables of one type; a reference that is none, or of an output, is passed over."""
         places = self._settable[type_name]
+        try:
+            for reference, value in zip(references, values, strict=False):
+                record, field = places[reference]
+                setattr(record, field, value)
+        except KeyError:
+            self._set_those_that_are(type_name, references, values)
+
+    def _set_those_that_are(self, type_name: str, references: Sequence[int], values: Sequence[Value]) -> None:
         for reference, value in zip(references, values, strict=False):
-            place = places.get(reference)
+            place = self._settable[type_name].get(reference)
             if place is None:
                 self.fail(f"there is no {type_name} variable to set with value reference {reference}", ERROR_CALL)
             else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -176,7 +177,7 @@ def test_two_versions_of_the_code_run_in_one_process(
 
 
 def edited_lists(fmu: Path, lists: Path) -> list[Any]:
-    folder = Path(fmpy.extract(fmu))
+    folder = Path(fmpy.extract(fmu, tempfile.mkdtemp(suffix=" with blanks")))
     values = []
     for source in (None, lists):
         if source is not None:

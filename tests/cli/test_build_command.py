@@ -1,0 +1,93 @@
+"""``axcomp build`` and ``build_fmu.py``."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from axcomp.cli import main
+from axcomp.lists import write_machine
+from axcomp.machine import Axis, Leadscrew, Machine
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def lists(tmp_path: Path) -> Path:
+    machine = Machine((Axis(1, "X", leadscrew=Leadscrew((0.0, 10.0), (0.01, 0.02))), Axis(2, "Y")))
+    write_machine(machine, tmp_path / "lists")
+    return tmp_path / "lists"
+
+
+def test_without_options_both_fmus_of_the_example_are_built_here(tmp_path: Path) -> None:
+    result = subprocess.run(
+        [sys.executable, str(ROOT / "build_fmu.py")],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["axcomp.fmu", "plant.fmu"]
+    assert result.stdout.splitlines()[0].startswith("axcomp.fmu: ")
+    assert result.stdout.splitlines()[-1] == "plant.fmu"
+
+
+def test_options_reach_the_fmu(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "new" / "mine.fmu"
+    options = ["--machine", str(lists), "--output", str(output), "--cycle-time", "0.002", "--naming", "flat"]
+    assert main(["build", *options, "--no-external-tool"]) == 0
+    description = fmpy.read_model_description(output)
+    assert description.defaultExperiment.stepSize == "0.002"
+    assert description.coSimulation.needsExecutionTool is False
+    names = {variable.name for variable in description.modelVariables}
+    assert "X_leadscrew_correction" in names
+    assert [variable.start for variable in description.modelVariables if variable.name == "cycle_time"] == ["0.002"]
+    assert capsys.readouterr().out.splitlines()[1:] == ["  X: leadscrew", "  Y: no compensation"]
+    assert [path.name for path in output.parent.iterdir()] == ["mine.fmu"]
+
+
+def test_findings_are_shown_and_stop_nothing(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with (lists / "achskw1.lis").open("r+", encoding="utf-8") as file:
+        file.write("kw.ssfk.nonsense 5\n")
+    assert main(["build", "--machine", str(lists), "--output", str(tmp_path)]) == 0
+    assert "achskw1.lis:1: warning AXC-UNKNOWN: kw.ssfk.nonsense" in capsys.readouterr().err
+    assert (tmp_path / "axcomp.fmu").is_file()
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--machine", "nowhere/hochlauf.lis"], "there is no axis in these lists"),
+        (["--machine", "lists", "--cycle-time", "0"], "the cycle time must be above 0 s"),
+        (["--machine", "lists", "--output", "lists/hochlauf.lis/x.fmu"], "cannot be written"),
+    ],
+)
+def test_what_cannot_be_built_is_a_sentence_and_status_1(
+    lists: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], options: list[str], sentence: str
+) -> None:
+    monkeypatch.chdir(lists.parent)
+    assert main(["build", *options]) == 1
+    assert sentence in capsys.readouterr().err
+
+
+def test_a_missing_pythonfmu_is_a_sentence(
+    lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
+    assert main(["build", "--machine", str(lists), "--output", str(tmp_path)]) == 1
+    assert "pip install 'pythonfmu" in capsys.readouterr().err
+
+
+def test_help_has_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["build", "--help"])
+    assert ended.value.code == 0
+    assert "axcomp build --machine lists/hochlauf.lis" in capsys.readouterr().out

@@ -1,0 +1,10 @@
+from axcomp.fmu.reference import PAGE, reference_page
+from axcomp.fmu.variables import AXIS_DECLARATIONS
+
+
+def test_the_page_is_current() -> None:
+    assert PAGE.read_text(encoding="utf-8") == reference_page(), "run python -m axcomp.fmu.reference"
+
+
+def test_every_variable_of_an_axis_stands_on_it() -> None:
+    assert all(f"| `NAME.{declaration.name}` |" in reference_page() for declaration in AXIS_DECLARATIONS)
