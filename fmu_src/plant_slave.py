@@ -39,13 +39,20 @@ class PlantSlave(Fmi2Slave):
     def get_real(self, vrs: list[int]) -> list[float]:
         """Return variables by value reference."""
         values = self.values
-        return [values[vr] for vr in vrs]
+        try:
+            return [values[vr] for vr in vrs]
+        except IndexError:
+            self._tell(f"no variables have the value references {self._unknown(vrs)}")
+            return [values[vr] if vr < len(values) else 0.0 for vr in vrs]
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:
         """Set variables by value reference."""
         own = self.values
-        for vr, value in zip(vrs, values, strict=True):
-            own[vr] = value
+        try:
+            for vr, value in zip(vrs, values, strict=True):
+                own[vr] = value
+        except IndexError:
+            self._tell(f"no variables have the value references {self._unknown(vrs)}")
 
     def _get_fmu_state(self) -> dict[str, Any]:
         return {
@@ -86,10 +93,10 @@ class PlantSlave(Fmi2Slave):
                 self.currents[axis] = current
 
     def _give_outputs(self) -> None:
-        values, plant = self.values, self.plant
-        for axis, drive in enumerate(plant.drives):
+        values, true = self.values, self.plant.true
+        for axis, drive in enumerate(self.plant.drives):
             at = v.BLOCK * axis
-            values[at + v.TRUE_POSITION] = plant.true[axis]
+            values[at + v.TRUE_POSITION] = true[axis]
             values[at + v.MEASURED_POSITION] = drive.position
             values[at + v.VELOCITY] = drive.velocity
             values[at + v.MOTOR_CURRENT] = drive.current
@@ -100,6 +107,12 @@ class PlantSlave(Fmi2Slave):
         try:
             work(*arguments)
         except Exception as error:
-            message = f"{type(error).__name__}: {error}".replace("%", "percent")
-            self.log(message, Fmi2Status.error)
-            print(f"{self.instance_name}: {message}", file=sys.stderr)
+            self._tell(f"{type(error).__name__}: {error}")
+
+    def _unknown(self, vrs: list[int]) -> list[int]:
+        return [vr for vr in vrs if vr >= len(self.values)]
+
+    def _tell(self, message: str) -> None:
+        """Report an error; a C host would take a % for the beginning of a format."""
+        self.log(message.replace("%", "percent"), Fmi2Status.error)
+        print(f"{self.instance_name}: {message}", file=sys.stderr)

@@ -11,10 +11,13 @@ from ..places import models
 
 PICTURE = "demo.png"
 
+NOTE = """\
+Largest errors: true position of the tool against the raw setpoint, without and with this one compensation (all: every
+one), the others on; geometric errors at standstill, crosstalk while the other axis changes speed, friction as peaks at
+the reversals of a circle. The FMUs step side by side: a delay of one communication step between them is inherent."""
+
 EXAMPLE = """\
-Geometric errors are read where the axes stand, crosstalk while the other axis accelerates, friction at the reversals
-of a circle; *without* is with that one compensation off. What an FMU puts out reaches the other one communication step
-later: this delay is inherent to co-simulation, and in the errors shown.
+PATH needs a plant.json beside the lists: drives, friction and geometric errors of the machine.
 
 examples:
   axcomp demo
@@ -53,5 +56,5 @@ def _do_demo(args: argparse.Namespace) -> int:
         print(f"axcomp demo: {error}", file=sys.stderr)
         return 1
     print(table(results))
-    print(f"\n{args.output / PICTURE}")
+    print(f"\n{NOTE}\n{args.output / PICTURE}")
     return 0

@@ -129,7 +129,7 @@ def _friction(ax: Axes, stage: Stage, result: Outcome) -> None:
         result.following_error,
     )
     _curves(ax, (near.cycles - result.cycles[reversal]) * stage.cycle_time * 1e3, near)
-    ax.set_xlabel("time [ms]")
+    ax.set_xlabel("time after the setpoint's reversal [ms]")
     ax.set_title(f"Friction: {result.axis} reverses on a circle")
 
 

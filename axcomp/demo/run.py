@@ -53,6 +53,8 @@ def demonstrate(lists: Path, output: Path) -> Demo:
     BuildError, DemoError
         With a sentence that says what is missing.
     """
+    if not lists.exists():
+        raise DemoError(f"{lists} does not exist.")
     model = lists if lists.is_dir() else lists.parent
     variables, _ = read_plant(model)
     output.mkdir(parents=True, exist_ok=True)

@@ -107,7 +107,7 @@ class Stage:
             turn = APPROACH if share == 1.0 else 0.0
             course.move({name: a + share * (b - a) + turn for name, (a, b) in self.spans.items()}, RAPID)
             if not turn:
-                stops.append(course.dwell(SETTLING) - 1)
+                stops.append(_read(course))
         watched = np.array(stops)
         setpoints = course.setpoints()
         for kind in ("leadscrew", "all"):
@@ -130,9 +130,9 @@ class Stage:
         assert plane is not None
         first, second = self.names[plane.master1], self.names[plane.master2]
         stops = []
-        for row in range(5):
+        for row in range(4):
             for column in range(5) if row % 2 == 0 else range(4, -1, -1):
-                share1, share2 = (column + 0.37) / 5.0, (row + 0.61) / 5.0
+                share1, share2 = (column + 0.37) / 5.0, (row + 0.61) / 4.0
                 stops.append(
                     {first: plane.start1 + share1 * _length1(plane), second: plane.start2 + share2 * _length2(plane)}
                 )
@@ -191,7 +191,7 @@ class Stage:
         for stop in stops:
             course.move({**stop, name: at - APPROACH}, RAPID)
             course.move({name: at}, RAPID)
-            read.append(course.dwell(SETTLING) - 1)
+            read.append(_read(course))
         return Trial(kind, course.setpoints(), {name: np.array(read)})
 
     def _span(self, axis: Axis) -> tuple[float, float]:
@@ -207,6 +207,11 @@ class Stage:
             if plane is not None and plane.master2 == axis.number:
                 return plane.start2, plane.start2 + _length2(plane)
         return -100.0, 100.0
+
+
+def _read(course: Course) -> int:
+    """Let the axes settle and return the cycle to read them in; in the one after it velocities begin to rise again."""
+    return course.dwell(SETTLING) - 2
 
 
 def _length1(plane: Plane) -> float:

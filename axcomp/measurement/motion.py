@@ -54,15 +54,18 @@ def move(start: float, end: float, cycle_time: float, limits: Limits) -> Array:
         return np.empty(0)
     spans = (abs(length) / limits.velocity, limits.velocity / limits.acceleration, limits.acceleration / limits.jerk)
     cruise, rise, round_off = (max(1, int(np.ceil(span / cycle_time - 1e-9))) for span in spans)
-    if cruise < rise:
-        # Too short for full velocity: as long a pulse as rise keeps the acceleration within its limit.
-        cruise = rise = max(1, int(np.ceil(np.sqrt(abs(length) / limits.acceleration) / cycle_time)))
+    if cruise < rise + round_off:
+        # Acceleration turns into deceleration at once: equal pulses keep it within its limit, a change of twice its
+        # size takes twice the time.
+        cruise = rise = max(cruise, int(np.ceil(np.sqrt(abs(length) / limits.acceleration) / cycle_time)))
+        round_off *= 2
     pulse = np.full(cruise, 1.0 / cruise)
     for width in (rise, round_off):
         pulse = np.convolve(pulse, np.full(width, 1.0 / width))
     positions: Array = start + length * np.cumsum(pulse)
     positions[-1] = end
-    return positions
+    # Rounding must not carry it beyond the end, for it would come back then: a reversal.
+    return np.clip(positions, min(start, end), max(start, end))
 
 
 class Course:

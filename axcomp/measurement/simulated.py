@@ -25,7 +25,10 @@ class Plant(Protocol):
     """What a measurement needs of the plant (``fmu_src/plant_model``); positions in mm or °, currents in mA."""
 
     names: tuple[str, ...]
-    true: list[float]
+
+    @property
+    def true(self) -> list[float]:
+        """Positions of the tool."""
 
     @property
     def currents(self) -> list[float]:
@@ -88,8 +91,8 @@ def flatness(
 def friction_current(plant: Plant, axis: str, velocity: float) -> float:
     """Return the motor current at a constant velocity, mean of both directions, mA."""
     index = plant.names.index(axis)
-    run_up, settle, record = 0.15, 0.25, 0.1
-    limits = Limits(velocity, velocity / run_up, velocity / run_up / 0.05)
+    run_up, settle, record = 0.1, 0.15, 0.05
+    limits = Limits(velocity, velocity / run_up, velocity / run_up / 0.03)
     currents = []
     for sign in (1.0, -1.0):
         course = Course({axis: 0.0}, CYCLE_TIME)
@@ -139,6 +142,4 @@ def acceleration_test(
 def _middle_of(accelerations: Array, wanted: float) -> int:
     """Return the middle cycle of the stretch at the wanted acceleration."""
     steady = np.flatnonzero(np.abs(accelerations - wanted) < 1e-6 * abs(wanted))
-    if not len(steady):
-        raise ValueError(f"the test does not reach {wanted:g} mm/s²")
     return int(steady[len(steady) // 2])

@@ -67,6 +67,9 @@ class Drive:
         The drive lays a parabola through the middles of the last setpoints, as fine interpolators do, so position,
         velocity and acceleration of the reference agree; it reaches the setpoint half a step after the next call.
         """
+        if self._rests(setpoint, additive):
+            self.acceleration = self.lag = 0.0
+            return
         gain, limit = self.gain, self.current_limit
         coulomb, stiction, stribeck, viscous = self.coulomb, self.stiction, self.stribeck, self.viscous
         position_gain, velocity_gain, integral_rate = self.position_gain, self.velocity_gain, self.integral_rate
@@ -109,3 +112,8 @@ class Drive:
         self.acceleration = (velocity - velocity_before) / duration
         self.setpoint, self.reference = setpoint, end
         self.lag = end - position
+
+    def _rests(self, setpoint: float, additive: float) -> bool:
+        """Tell whether nothing can change: no error, no current, no motion."""
+        still = self.velocity == 0.0 and self.current == 0.0 and self.integral == 0.0 and additive == 0.0
+        return still and setpoint == self.setpoint and setpoint == self.reference and setpoint == self.position

@@ -34,8 +34,6 @@ class Plant:
         ``mm`` or ``deg``.
     modulo : tuple of float
         Range of a modulo axis in °, 0.0 for the others.
-    true : list of float
-        Position of the tool, mm or °.
     """
 
     def __init__(self, description: Mapping[str, Any]) -> None:
@@ -52,11 +50,11 @@ class Plant:
                 self.drives.append(Drive(axis, rotary, float(axis.get("modulo", 0.0))))
                 self.errors.append(AxisErrors(axis["errors"], index, self.names))
             except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
-                raise PlantError(f"axis {axis['name']}: {type(error).__name__}: {error}") from error
+                what = f"{error} is missing" if isinstance(error, KeyError) else f"{type(error).__name__}: {error}"
+                raise PlantError(f"axis {axis['name']}: {what}") from error
         self.units = tuple(units)
         self.modulo = tuple(drive.modulo for drive in self.drives)
         self.motion = Motion(len(axes))
-        self.true = [0.0] * len(axes)
         self.rest_at([0.0] * len(axes))
 
     @classmethod
@@ -64,13 +62,22 @@ class Plant:
         """Read ``plant.json``; PlantError says what is wrong with it."""
         try:
             return cls(json.loads(path.read_text(encoding="utf-8")))
-        except (OSError, KeyError, TypeError, ValueError) as error:
-            raise PlantError(f"{path}: {error}") from error
+        except OSError as error:
+            raise PlantError(f"{path}: {error.strerror or error}") from error
+        except (KeyError, TypeError, ValueError) as error:
+            what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+            raise PlantError(f"{path}: {what}") from error
 
     @property
     def measured(self) -> list[float]:
         """Positions of the encoders."""
         return self.motion.positions
+
+    @property
+    def true(self) -> list[float]:
+        """Positions of the tool: what the encoders see and the geometric errors."""
+        motion = self.motion
+        return [position + errors.error(motion) for position, errors in zip(motion.positions, self.errors, strict=True)]
 
     @property
     def currents(self) -> list[float]:
@@ -103,8 +110,6 @@ class Plant:
             motion.positions[index] = drive.position
             motion.velocities[index] = drive.velocity
             motion.accelerations[index] = drive.acceleration
-        for index, errors in enumerate(self.errors):
-            self.true[index] = motion.positions[index] + errors.error(motion)
 
     @property
     def state(self) -> list[float]:

@@ -1,0 +1,80 @@
+"""The demonstration itself: both FMUs coupled."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import matplotlib.image
+import pytest
+
+from axcomp.cli.demo import PICTURE
+from axcomp.compile import CYCLE_TIME
+from axcomp.demo.picture import draw
+from axcomp.demo.run import BuildError, Demo, DemoError, demonstrate
+from axcomp.places import models
+
+
+def check(demo: Demo) -> None:
+    """Geometric errors shrink to 5 % at most, reversal peaks to 20 %, and they were worth it."""
+    for result in demo.results:
+        without, _ = result.largest
+        assert without > 3.0, result.axis
+        assert result.ratio <= (0.20 if result.trial.kind == "friction" else 0.05), (result.axis, result.trial.kind)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "rows"), [("three_axis", 13), ("rotary_table", 3)])
+def test_errors_shrink_as_promised(name: str, rows: int, tmp_path: Path) -> None:
+    demo = demonstrate(models() / name / "hochlauf.lis", tmp_path / "new")
+    assert len(demo.results) == rows
+    check(demo)
+    picture = tmp_path / PICTURE
+    draw(picture, demo.machine, demo.results, CYCLE_TIME)
+    height, width, _ = matplotlib.image.imread(picture).shape
+    assert width == 1200
+    assert 400 <= height <= 1000
+    assert {path.name for path in (tmp_path / "new").iterdir()} == {"axcomp.fmu", "plant.fmu"}
+
+
+@pytest.mark.slow
+def test_inverted_tables_make_errors_larger(tmp_path: Path) -> None:
+    model = tmp_path / "inverted"
+    shutil.copytree(models() / "rotary_table", model)
+    lists = model / "achskw6.lis"
+    lines = []
+    for line in lists.read_text(encoding="utf-8").splitlines():
+        name, _, value = line.partition(" ")
+        inverted = name.endswith((".pos", ".neg"))
+        lines.append(f"{name} {-int(value)}" if inverted else line)
+    lists.write_text("\n".join(lines), encoding="utf-8")
+    demo = demonstrate(model, tmp_path / "out")
+    assert all(result.ratio > 1.8 for result in demo.results if result.trial.kind == "leadscrew")
+
+
+def test_a_machine_without_a_plant_is_refused_with_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=r"plant\.json"):
+        demonstrate(models() / "manual_examples", tmp_path)
+
+
+def test_a_path_that_is_not_there_is_refused_with_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(DemoError, match="does not exist"):
+        demonstrate(tmp_path / "nowhere", tmp_path)
+
+
+def test_a_plant_of_other_axes_is_refused_with_a_sentence(tmp_path: Path) -> None:
+    model = tmp_path / "mixed"
+    shutil.copytree(models() / "three_axis", model)
+    shutil.copy(models() / "rotary_table" / "plant.json", model)
+    with pytest.raises(DemoError, match="no axis X, Y, Z"):
+        demonstrate(model, tmp_path / "out")
+
+
+def test_a_machine_that_compensates_nothing_is_refused_with_a_sentence(tmp_path: Path) -> None:
+    model = tmp_path / "bare"
+    shutil.copytree(models() / "rotary_table", model)
+    lists = model / "achsmd6.lis"
+    kept = [line for line in lists.read_text(encoding="utf-8").splitlines() if not line.startswith("lr_param.")]
+    lists.write_text("\n".join(kept), encoding="utf-8")
+    with pytest.raises(DemoError, match="nothing to show"):
+        demonstrate(model, tmp_path / "out")
