@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from decimal import Context, Decimal
 
 from .catalogue import parameter
@@ -13,11 +14,17 @@ _NAME_WIDTH = 40
 
 
 def in_list(value: float, quantity: Quantity) -> int | Decimal:
-    """Return mm, °, mm/s, °/s or a factor in the unit of the lists: the decimal that reads back to the same float."""
-    exact = Decimal(repr(float(value))).scaleb(len(str(quantity.divisor)) - 1, _EXACT)
-    if not exact.is_finite():
+    """Return mm, °, mm/s, °/s or a factor in the unit of the lists, so that it reads back to the same float.
+
+    That is an integer where one does, else a decimal; ValueError if the value is not finite.
+    """
+    scaled = value * quantity.divisor
+    if not math.isfinite(scaled):
         raise ValueError(f"{value} cannot stand in a list")
-    return int(exact) if exact == exact.to_integral_value() else exact
+    whole = round(scaled)
+    if whole / quantity.divisor == value:
+        return whole
+    return Decimal(repr(float(value))).scaleb(len(str(quantity.divisor)) - 1, _EXACT)
 
 
 class Lines:

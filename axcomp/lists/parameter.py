@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cache
+from functools import cache, cached_property
 
 Value = int | Decimal | str
 """A value as it stands in a list: Booleans are 0 or 1, decimals are exact."""
@@ -187,10 +187,13 @@ class Parameter:
         translatory, rotary, _ = self.quantity.value
         return translatory if rotary in ("", translatory) else f"{translatory} or {rotary}"
 
+    @cached_property
+    def _pattern(self) -> str:
+        return re.sub(r"\[\w\]", "[{}]", self.name)
+
     def named(self, *indices: int) -> str:
         """Return the name with its indices filled in."""
-        numbers = iter(indices)
-        return re.sub(r"\[\w\]", lambda _: f"[{next(numbers)}]", self.name)
+        return self._pattern.format(*indices)
 
     def takes(self, value: Value) -> bool:
         """Whether a value would be used, be it with a warning."""

@@ -36,7 +36,7 @@ def test_what_is_written_converts_back_to_the_same_float(value: float, quantity:
     assert convert(in_list(value, quantity), quantity.divisor) == value
 
 
-@pytest.mark.parametrize("value", [float("nan"), float("inf"), float("-inf")])
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), float("-inf"), 1e308])
 def test_what_is_no_number_cannot_be_written(value: float) -> None:
     with pytest.raises(ValueError, match="cannot stand in a list"):
         in_list(value, Quantity.POSITION)
