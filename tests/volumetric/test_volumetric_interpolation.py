@@ -1,0 +1,202 @@
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from numpy.typing import NDArray
+from rigid_bodies import corrections_of, machine_of, volumetric
+from scipy.interpolate import RegularGridInterpolator
+
+from axcomp.kernel.record import zeros
+from axcomp.kernel.volumetric_errors import errors_at, find_cell
+from axcomp.runtime import Runtime
+from axcomp.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation
+
+Array = NDArray[np.float64]
+KNOTS = st.lists(st.floats(-500, 500).map(lambda x: round(x, 3)), min_size=1, max_size=7, unique=True).map(sorted)
+
+
+def table(name: str, arguments: str, nodes: Array, values: Array, mode: Interpolation) -> ErrorTable:
+    return ErrorTable(name, tuple(values.tolist()), arguments, tuple(map(tuple, nodes.tolist())), mode)
+
+
+def evaluate(tables: list[ErrorTable], positions: Array, letters: str) -> Array:
+    """Return the errors of the tables at positions, shape (positions, tables)."""
+    machine = machine_of(volumetric("XYZABC", errors=tuple(tables)))
+    compiled = Runtime(machine).tables
+    rows = []
+    for row in positions:
+        position = zeros(len(LETTERS))
+        for letter, q in zip(letters, row.tolist(), strict=True):
+            position[LETTERS.index(letter)] = q
+        errors = zeros(len(ERRORS))
+        errors_at(compiled.pool, compiled.volumetric[0], position, errors)
+        rows.append([errors[ERRORS.index(table.name)] for table in tables])
+    return np.array(rows)
+
+
+def grid(axes: list[list[float]]) -> Array:
+    return np.array(list(itertools.product(*axes)))
+
+
+@settings(max_examples=60)
+@given(st.lists(KNOTS, min_size=1, max_size=3), st.data())
+def test_values_on_a_grid_are_multilinear_and_held_outside(axes: list[list[float]], data: st.DataObject) -> None:
+    arguments = "".join(sorted(data.draw(st.permutations(LETTERS[:3]))[: len(axes)]))
+    nodes = grid(axes)
+    values = data.draw(arrays(float, (2, len(nodes)), elements=st.floats(-0.5, 0.5)))
+    tables = [
+        table(name, arguments, nodes, v, Interpolation.GRID) for name, v in zip(("EXX", "EBX"), values, strict=True)
+    ]
+    positions = data.draw(arrays(float, (8, len(axes)), elements=st.floats(-700, 700)))
+    positions = np.vstack([positions, nodes[:5]])
+    found = evaluate(tables, positions, arguments)
+    # SciPy wants two points along every axis: a single one gets a twin.
+    wide = [axis if len(axis) > 1 else [axis[0], axis[0] + 1.0] for axis in axes]
+    inside = np.clip(positions, [axis[0] for axis in axes], [axis[-1] for axis in axes])
+    for column, v in enumerate(values):
+        shaped = v.reshape([len(axis) for axis in axes])
+        for d, axis in enumerate(axes):
+            shaped = np.repeat(shaped, 2, axis=d) if len(axis) == 1 else shaped
+        assert found[:, column] == pytest.approx(RegularGridInterpolator(wide, shaped)(inside), abs=1e-12)
+
+
+def test_six_arguments_are_as_good_as_one() -> None:
+    rng = np.random.default_rng(5)
+    axes = [[0.0, 10.0, 30.0], [0.0, 1.0], [-5.0, 5.0], [0.0, 90.0], [-20.0, 0.0, 20.0], [0.0, 180.0]]
+    nodes = grid(axes)
+    values = rng.uniform(-0.5, 0.5, len(nodes))
+    positions = np.array([rng.uniform([a[0] for a in axes], [a[-1] for a in axes]) for _ in range(20)])
+    found = evaluate([table("EYZ", LETTERS, nodes, values, Interpolation.GRID)], positions, LETTERS)
+    expected = RegularGridInterpolator(axes, values.reshape([len(a) for a in axes]))(positions)
+    assert found[:, 0] == pytest.approx(expected, abs=1e-12)
+
+
+@given(
+    st.lists(st.floats(-1e5, 1e5), min_size=2, max_size=40, unique=True).map(sorted),
+    st.lists(st.floats(0, 1), min_size=1, max_size=20),
+)
+def test_the_cell_of_a_position_is_found_however_unequal_the_knots_are(knots: list[float], shares: list[float]) -> None:
+    values = np.zeros(len(knots))
+    values[0] = 0.1
+    one = table("EXX", "X", np.array(knots)[:, None], values, Interpolation.GRID)
+    tables = Runtime(machine_of(volumetric("XYZ", errors=(one,)))).tables
+    inside = [min(knots[0] + share * (knots[-1] - knots[0]), knots[-1]) for share in shares]
+    expected = np.clip(np.searchsorted(knots, [*inside, *knots], side="right") - 1, 0, len(knots) - 2)
+    block = tables.volumetric[0].block[0]
+    assert [find_cell(tables.pool, block, 0, x) for x in [*inside, *knots]] == expected.tolist()
+
+
+def test_a_constant_error_needs_no_argument() -> None:
+    assert evaluate([ErrorTable("C0Y", (2e-3,))], np.zeros((1, 1)), "X").tolist() == [[2e-3]]
+
+
+TURN = np.arange(0.0, 361.0, 30.0)
+
+
+def rotary_table(nodes: Array, mode: Interpolation = Interpolation.GRID) -> ErrorTable:
+    return table("EXC", "C", nodes[:, None], 0.01 * np.cos(np.radians(nodes)) + 0.002 * np.sin(np.radians(nodes)), mode)
+
+
+@pytest.mark.parametrize("mode", [Interpolation.GRID, Interpolation.SCATTER])
+def test_a_table_over_a_full_turn_repeats_and_is_continuous(mode: Interpolation) -> None:
+    one = rotary_table(TURN, mode)
+    q = np.array([5.0, 100.0, 355.0, 359.999999999, 0.0])
+    found = [evaluate([one], (q + turns * 360.0)[:, None], "C")[:, 0] for turns in (-2, 0, 1)]
+    assert found[0] == pytest.approx(found[1], abs=1e-12)
+    assert found[2] == pytest.approx(found[1], abs=1e-12)
+    assert found[1][3] == pytest.approx(found[1][4], abs=1e-9)
+
+
+def test_a_table_over_less_than_a_full_turn_is_not_folded() -> None:
+    one = rotary_table(np.array([-90.0, 0.0, 90.0]))
+    found = evaluate([one], np.array([[270.0], [-90.0], [90.0], [-400.0]]), "C")[:, 0]
+    assert found.tolist() == [one.values[2], one.values[0], one.values[2], one.values[0]]
+
+
+def test_linear_positions_are_never_folded() -> None:
+    one = table("EXX", "X", np.array([[0.0], [360.0]]), np.array([0.0, 0.36]), Interpolation.GRID)
+    assert evaluate([one], np.array([[400.0]]), "X").tolist() == [[0.36]]
+
+
+@given(
+    st.lists(st.tuples(*[st.floats(-100, 100)] * 2), min_size=1, max_size=12, unique=True),
+    st.lists(st.tuples(*[st.floats(-150, 150)] * 2), min_size=1, max_size=6),
+    st.data(),
+)
+def test_scattered_values_are_weighted_by_the_square_of_the_distance(
+    nodes: list[tuple[float, float]], positions: list[tuple[float, float]], data: st.DataObject
+) -> None:
+    values = data.draw(arrays(float, len(nodes), elements=st.floats(-0.5, 0.5)))
+    one = table("EZY", "XY", np.array(nodes), values, Interpolation.SCATTER)
+    square = np.sum((np.array(positions)[:, None, :] - np.array(nodes)) ** 2, axis=2)
+    near = square.min(axis=1) <= 1e-30
+    weights = 1.0 / np.maximum(square, 1e-300)
+    expected = weights @ values / weights.sum(axis=1)
+    expected[near] = values[square.argmin(axis=1)][near]
+    found = evaluate([one], np.array(positions), "XY")[:, 0]
+    assert found == pytest.approx(expected, abs=1e-12)
+
+
+def test_scattered_values_are_exact_at_the_nodes() -> None:
+    nodes = np.random.default_rng(2).uniform(-100, 100, (30, 3))
+    values = np.linspace(-0.4, 0.4, 30)
+    one = table("EZY", "XYZ", nodes, values, Interpolation.SCATTER)
+    assert evaluate([one], nodes, "XYZ")[:, 0].tolist() == values.tolist()
+
+
+@given(
+    st.lists(st.tuples(*[st.integers(-9, 9)] * 3), min_size=2, max_size=8).filter(
+        lambda path: all(a != b for a, b in itertools.pairwise(path))
+    ),
+    st.lists(st.tuples(*[st.floats(-12, 12)] * 3), min_size=1, max_size=6),
+    st.sampled_from(["XYZ", "XY", "YZ"]),
+)
+def test_on_a_path_the_nearest_point_of_the_polyline_counts(
+    corners: list[tuple[int, int, int]], positions: list[tuple[float, float, float]], arguments: str
+) -> None:
+    path = np.array(corners, float)[:, : len(arguments)]
+    path = path[[True, *np.any(np.diff(path, axis=0) != 0.0, axis=1)]]
+    values = np.linspace(-0.3, 0.5, len(path)) ** 2
+    mode = Interpolation.PATH_XY if arguments == "XY" else Interpolation.PATH
+    one = table("EXX", arguments, path, values, mode)
+    places = np.array(positions)[:, : len(arguments)]
+    found = evaluate([one], places, arguments)[:, 0]
+    for place, value in zip(places, found, strict=True):
+        # Walk along the polyline in small steps: the value is that of a point no farther than any of these.
+        s = np.linspace(0.0, 1.0, 401)[:, None]
+        feet = np.vstack([a + s * (b - a) for a, b in itertools.pairwise(path)] or [path])
+        along = np.concatenate(
+            [(1 - s[:, 0]) * a + s[:, 0] * b for a, b in itertools.pairwise(values)] or [values]
+        )
+        distances = np.linalg.norm(feet - place, axis=1)
+        near = distances <= distances.min() + 0.1
+        assert along[near].min() - 1e-2 <= value <= along[near].max() + 1e-2
+
+
+def test_a_path_is_linear_between_its_corners_and_held_at_its_ends() -> None:
+    corners = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 50.0]])
+    one = table("EYX", "XY", corners, np.array([0.0, 0.1, 0.3]), Interpolation.PATH_XY)
+    places = np.array([[-20.0, 5.0], [30.0, 7.0], [100.0, 0.0], [130.0, 10.0], [90.0, 70.0]])
+    assert evaluate([one], places, "XY")[:, 0] == pytest.approx([0.0, 0.03, 0.1, 0.14, 0.3], abs=1e-12)
+
+
+def test_errors_over_the_same_nodes_share_a_search_and_others_do_not() -> None:
+    nodes = np.array([[0.0], [10.0]])
+    shared = [table(name, "X", nodes, np.array([0.1, 0.2]), Interpolation.GRID) for name in ("EXX", "EYX", "EAX")]
+    other = table("EZX", "X", np.array([[0.0], [11.0]]), np.array([0.1, 0.2]), Interpolation.GRID)
+    zero = table("EBX", "X", nodes, np.zeros(2), Interpolation.GRID)
+    compiled = Runtime(machine_of(volumetric("XYZ", errors=(*shared, other, zero)))).tables.volumetric[0]
+    assert [(block.errors, block.nodes) for block in compiled.block[: compiled.blocks]] == [(3, 2), (1, 2)]
+
+
+def test_a_correction_follows_its_table() -> None:
+    one = table("EXX", "X", np.array([[0.0], [10.0], [40.0]]), np.array([0.0, 0.01, -0.02]), Interpolation.GRID)
+    runtime = Runtime(machine_of(volumetric("XYZ", errors=(one,))))
+    x = np.linspace(-5, 45, 101)
+    found = [corrections_of(runtime, {"X": q})["X"] for q in x.tolist()]
+    assert found == pytest.approx(-np.interp(x, [0, 10, 40], [0, 0.01, -0.02]), abs=1e-12)
