@@ -49,6 +49,10 @@ CYCLE_TIME = 0.001
 """Default cycle time of the position controller in s: no list names it."""
 
 
+PLANE_POINTS = 10201
+"""Entries of a plane where the list does not say how many (P-COMP-00061)."""
+
+
 def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Tables:
     """Return the tables of a machine.
 
@@ -91,6 +95,8 @@ class _AxisCompiler:
 
     def compile(self) -> None:
         axis, table = self.axis, self.table
+        table.number = axis.number
+        table.pool = self.pool
         if axis.modulo is not None:
             table.modulo_range = axis.modulo.end - axis.modulo.start
             self._require(1e-6 < table.modulo_range < LARGEST, "the modulo range must be above 0 and finite")
@@ -113,11 +119,13 @@ class _AxisCompiler:
 
     def _cross(self, cross: Cross, table: CrossTable) -> None:
         self._switch(table.switching, cross.manual_activation, cross.n_cycles, at_standstill=True)
+        table.max_points = cross.max_points
         table.master = self._index(cross.master)
         self._curve(table.curve, "cross", cross.positions, cross.corrections)
 
     def _plane(self, plane: Plane, table: PlaneTable) -> None:
         self._switch(table.switching, plane.manual_activation, plane.n_cycles, at_standstill=True)
+        table.max_points = plane.max_points or PLANE_POINTS
         table.master1 = self._index(plane.master1)
         table.master2 = self._index(plane.master2)
         table.start1, table.start2 = plane.start1, plane.start2
@@ -198,6 +206,7 @@ class _AxisCompiler:
 
     def _leadscrew(self, leadscrew: Leadscrew, table: LeadscrewTable) -> None:
         self._switch(table.switching, leadscrew.manual_activation, 0, at_standstill=False)
+        table.max_points = leadscrew.max_points
         positions, positive, negative = leadscrew.positions, leadscrew.positive, leadscrew.negative
         table.bilateral = negative is not None
         table.without_other = leadscrew.without_other_compensations
@@ -217,6 +226,7 @@ class _AxisCompiler:
 
     def _friction(self, friction: Friction, table: FrictionTable) -> None:
         self._switch(table.switching, False, 0, at_standstill=False)
+        table.max_points = friction.max_points
         self._curve(table.curve, "friction", friction.velocities, friction.currents)
         self._require(friction.velocities[0] >= 0.0, "friction: velocities are not negative")
         self._require(abs(friction.scaling) < LARGEST, "friction: the scaling must be finite")

@@ -9,7 +9,7 @@ from array import array
 from collections.abc import Iterator
 from typing import Annotated, Any, get_args, get_origin
 
-from .kernel.record import fields_of
+from .kernel.record import Vec, fields_of
 
 MAGIC = b"axcompS2"
 NUMBERS = (float, int, bool)
@@ -21,12 +21,12 @@ class SnapshotError(ValueError):
 
 
 def identity_of(*records: Any) -> int:
-    """Return a CRC-32 of the numbers of the records, tables included: equal for equal machines."""
+    """Return a CRC-32 of the numbers of the records, without any ``Vec`` in them: equal for equal machines."""
     return zlib.crc32(array("d", [number for record in records for number in _numbers(record)]).tobytes())
 
 
 def pack(identity: int, *records: Any) -> bytes:
-    """Return the numbers of the records as bytes; a ``Vec`` must not be among the fields.
+    """Return the numbers of the records as bytes, without any ``Vec`` in them.
 
     ``identity`` tells apart what the numbers belong to: a state may point behind the end of another machine's tables.
     """
@@ -68,8 +68,9 @@ def _numbers(value: Any) -> Iterator[float]:
         for element in value:
             yield from _numbers(element)
     elif dataclasses.is_dataclass(value):
-        for field in dataclasses.fields(value):
-            yield from _numbers(getattr(value, field.name))
+        for name, hint in fields_of(type(value)).items():
+            if hint != Vec:
+                yield from _numbers(getattr(value, name))
     else:
         yield float(value)
 

@@ -59,7 +59,7 @@ def sample(
     work()
     values = []
     for _ in range(repeats):
-        begin = time.perf_counter()
+        begin = time.process_time()
         work()
-        values.append(scale * (time.perf_counter() - begin))
+        values.append(scale * (time.process_time() - begin))
     return Sample(name, unit, tuple(values), goal)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..engine import Engine
 from ..lists import read_machine, write_machine
@@ -26,7 +27,7 @@ def bench_engine(machine: Machine, name: str, repeats: int) -> Iterator[Sample]:
     yield sample(f"cycle of {name}, inputs set", "µs", _Motion(machine), repeats=repeats, each=CYCLES, goal=40.0)
     engine = Engine(machine)
     rows = 20_000
-    trajectory = {}
+    trajectory: dict[str, NDArray[np.float64]] = {}
     for variable in engine.variables:
         if variable.causality == "input" and variable.field in {"setpoint", "velocity", "acceleration"}:
             trajectory[variable.name] = 200.0 * np.sin(1e-3 * np.arange(rows) + len(trajectory))

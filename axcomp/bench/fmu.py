@@ -9,7 +9,6 @@ import os
 import shutil
 import time
 from concurrent.futures import ProcessPoolExecutor
-from pathlib import Path
 from typing import Any
 
 import fmpy
@@ -36,7 +35,7 @@ def _measure(path: str, repeats: int) -> tuple[list[float], list[float]]:
         description = fmpy.read_model_description(path)
         steps, starts = [], []
         for _ in range(repeats):
-            begin = time.perf_counter()
+            begin = time.process_time()
             slave = FMU2Slave(
                 guid=description.guid,
                 modelIdentifier=description.coSimulation.modelIdentifier,
@@ -47,7 +46,7 @@ def _measure(path: str, repeats: int) -> tuple[list[float], list[float]]:
             slave.setupExperiment(startTime=0.0)
             slave.enterInitializationMode()
             slave.exitInitializationMode()
-            starts.append(time.perf_counter() - begin)
+            starts.append(time.process_time() - begin)
             steps.append(_steps(slave, description))
             slave.terminate()
             slave.freeInstance()
@@ -67,14 +66,16 @@ def _steps(slave: FMU2Slave, description: Any) -> float:
                 if variable.causality == causality and variable.type == kind and variable.name != "reload"
             ]
             references = (ctypes.c_uint * len(chosen))(*(variable.valueReference for variable in chosen))
-            starts = [float(variable.start or 0) if kind == "Real" else variable.start == "true" for variable in chosen]
-            groups[causality, kind] = references, (c_type * len(chosen))(*starts)  # type: ignore[arg-type]
+            values = (c_type * len(chosen))()
+            for place, variable in enumerate(chosen):
+                values[place] = variable.start == "true" if kind == "Boolean" else float(variable.start or 0)
+            groups[causality, kind] = references, values
     set_reals, reals = groups["input", "Real"]
     set_booleans, booleans = groups["input", "Boolean"]
     outputs = [(getattr(slave, f"fmi2Get{kind}"), *groups["output", kind]) for kind in ("Real", "Boolean", "Integer")]
     component, count, size = slave.component, len(reals), description.defaultExperiment.stepSize
     rows = [[100 * math.sin(1e-3 * k + i) for i in range(count)] for k in range(STEPS)]
-    begin = time.perf_counter()
+    begin = time.process_time()
     for k, row in enumerate(rows):
         reals[:] = row
         slave.fmi2SetReal(component, set_reals, count, reals)
@@ -82,4 +83,4 @@ def _steps(slave: FMU2Slave, description: Any) -> float:
         slave.fmi2DoStep(component, float(k) * float(size), float(size), 0)
         for get, references, values in outputs:
             get(component, references, len(values), values)
-    return time.perf_counter() - begin
+    return time.process_time() - begin

@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
-from ..kernel.records import ERROR_INPUT
-from ..runtime import CAPACITY_ERRORS
+from ..kernel.records import (
+    ERROR_CROSS_POINTS,
+    ERROR_FRICTION_POINTS,
+    ERROR_INPUT,
+    ERROR_LEADSCREW_POINTS,
+    ERROR_PLANE_POINTS,
+    ERROR_UPDATE,
+)
 
-ERROR_UPDATE = 902  # AXC-902
+POINTS_ERRORS = {
+    "leadscrew": ERROR_LEADSCREW_POINTS,
+    "cross": ERROR_CROSS_POINTS,
+    "plane": ERROR_PLANE_POINTS,
+    "friction": ERROR_FRICTION_POINTS,
+}
+
 ERROR_CALL = 903  # AXC-903
 
 ERRORS = {
@@ -14,7 +26,7 @@ ERRORS = {
     ERROR_CALL: "A call of the FMU could not be carried out; the log says why",
     **{
         number: f"`reload` changes max_points of the {kind} compensation; the axis keeps its old lists"
-        for kind, number in CAPACITY_ERRORS.items()
+        for kind, number in POINTS_ERRORS.items()
     },
 }
 """Number → meaning, in the order of the reference page."""

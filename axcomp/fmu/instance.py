@@ -12,11 +12,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
+from ..kernel.records import ERROR_UPDATE
 from ..lists import read_machine
 from ..lists.findings import Severity
 from ..machine import Machine
 from ..runtime import Runtime
-from .errors import ERROR_CALL, ERROR_UPDATE
+from .errors import ERROR_CALL
 from .interface import FILE_NAME, Interface
 from .saved import Saved
 from .variable import TYPE_NAMES, Value

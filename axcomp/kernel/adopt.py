@@ -5,22 +5,66 @@ Only a volumetric compensation switches off, without motion; an automatic one th
 
 from __future__ import annotations
 
-from .records import AxisOutputs, AxisState, AxisTable, Lookup, Outputs, State, SwitchState, SwitchTable, Tables
+from .records import (
+    ERROR_CROSS_POINTS,
+    ERROR_FRICTION_POINTS,
+    ERROR_LEADSCREW_POINTS,
+    ERROR_PLANE_POINTS,
+    ERROR_UPDATE,
+    AxisOutputs,
+    AxisState,
+    AxisTable,
+    Lookup,
+    Outputs,
+    State,
+    SwitchState,
+    SwitchTable,
+    Tables,
+)
 from .switching import ramp
 from .volumetric_switching import adopt_volumetric
 
 
-def adopt(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:
-    """Make the state fit the new tables; both have the same axes."""
-    for i in range(after.axis_count):
-        adopt_axis(before.axis[i], after.axis[i], state.axis[i], outputs.axis[i])
+def update_error(before: AxisTable, after: AxisTable) -> int:
+    """Return why an axis cannot take new tables, 0 if it can.
+
+    Sizes that were reserved cannot change, and a compensation that was not there has no variables.
+    """
+    if before.number != after.number:
+        return ERROR_UPDATE
+    if appears(before.cross.switching, after.cross.switching) or appears(before.plane.switching, after.plane.switching):
+        return ERROR_UPDATE
+    if appears(before.crosstalk.switching, after.crosstalk.switching):
+        return ERROR_UPDATE
+    if appears(before.leadscrew.switching, after.leadscrew.switching):
+        return ERROR_UPDATE
+    if appears(before.friction.switching, after.friction.switching):
+        return ERROR_UPDATE
+    if after.leadscrew.switching.configured and before.leadscrew.max_points != after.leadscrew.max_points:
+        return ERROR_LEADSCREW_POINTS
+    if after.cross.switching.configured and before.cross.max_points != after.cross.max_points:
+        return ERROR_CROSS_POINTS
+    if after.plane.switching.configured and before.plane.max_points != after.plane.max_points:
+        return ERROR_PLANE_POINTS
+    if after.friction.switching.configured and before.friction.max_points != after.friction.max_points:
+        return ERROR_FRICTION_POINTS
+    return 0
+
+
+def appears(before: SwitchTable, after: SwitchTable) -> bool:
+    """Tell whether a compensation is configured that was not."""
+    return after.configured and not before.configured
+
+
+def adopt_volumetrics(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:
+    """Make the state of the volumetric compensations fit their new tables."""
     for k in range(before.volumetrics):
         adopt_volumetric(before.volumetric[k], after.volumetric[k], state.volumetric[k])
         outputs.volumetric[k].active = False
 
 
 def adopt_axis(before: AxisTable, after: AxisTable, axis: AxisState, out: AxisOutputs) -> None:
-    """Make the state of one axis fit its new tables; outputs that no longer exist become 0."""
+    """Make the state of an axis fit its new tables (``update_error`` is 0); what no longer exists puts out 0."""
     adopt_switch(before.cross.switching, after.cross.switching, axis.cross.switching)
     adopt_switch(before.plane.switching, after.plane.switching, axis.plane.switching)
     adopt_switch(before.crosstalk.switching, after.crosstalk.switching, axis.crosstalk.switching)

@@ -62,11 +62,11 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
     release_shift(table, axis.shift, axis.moving)
 
     if table.cross.switching.configured:
-        correct_by_cross(tables.pool, table, axis, state.axis[table.cross.master], out)
+        correct_by_cross(table.pool, table, axis, state.axis[table.cross.master], out)
     if table.plane.switching.configured:
-        correct_by_plane(tables.pool, table, axis, state, out)
+        correct_by_plane(table.pool, table, axis, state, out)
     if table.crosstalk.switching.configured:
-        correct_by_crosstalk(tables.pool, table, axis, state, out)
+        correct_by_crosstalk(table.pool, table, axis, state, out)
     correction = out.cross_correction + out.plane_correction + out.crosstalk_correction
     if table.leadscrew.switching.configured:
         position = axis.setpoint
@@ -74,7 +74,7 @@ def correct_axis(tables: Tables, state: State, inputs: Inputs, out: AxisOutputs,
             position += correction + axis.shift.before_leadscrew
         if not axis.started:
             begin_leadscrew(table.leadscrew, axis.leadscrew, position)
-        correct_by_leadscrew(tables.pool, table, axis, position, out)
+        correct_by_leadscrew(table.pool, table, axis, position, out)
         correction += out.leadscrew_correction
     out.volumetric_correction = axis.volumetric_correction
     correction += out.volumetric_correction
@@ -131,7 +131,7 @@ def correct_by_leadscrew(pool: Vec, table: AxisTable, axis: AxisState, position:
 def add_friction_current(tables: Tables, table: AxisTable, axis: AxisState, out: AxisOutputs) -> None:
     """Friction compensation."""
     current = friction_current(
-        tables.pool,
+        table.pool,
         table.friction,
         axis.friction,
         axis.setpoint,

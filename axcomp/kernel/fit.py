@@ -30,7 +30,7 @@ def tables_fit(tables: Tables, numbers: int) -> bool:
     if not (tables.cycle_time > 0.0 and 0 <= tables.axis_count <= AXES):
         return False
     for i in range(tables.axis_count):
-        if not axis_fits(tables.pool, tables.axis[i], tables.axis_count, numbers):
+        if not axis_fits(tables.axis[i].pool, tables.axis[i], tables.axis_count, numbers):
             return False
     return True
 

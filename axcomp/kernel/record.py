@@ -34,9 +34,13 @@ def zero(cls: type[Record]) -> Record:
     return cls(*[make() for make in _makers_of(cast(Hashable, cls))])
 
 
-@cache
-def fields_of(cls: Hashable) -> dict[str, Any]:
+def fields_of(cls: Any) -> dict[str, Any]:
     """Return the fields of a record class in declaration order: name → type, with its length where it has one."""
+    return _fields_of(cls)
+
+
+@cache
+def _fields_of(cls: Hashable) -> dict[str, Any]:
     return get_type_hints(cast(type, cls), include_extras=True)
 
 

@@ -1,7 +1,7 @@
 """The four records of the engine: what is fixed (Tables), remembered (State), given (Inputs) and returned (Outputs).
 
 Positions are in mm or °, velocities and accelerations in the same unit per s and s². A table of numbers is an offset
-into ``Tables.pool``. An axis is meant by its index, 0 … ``axis_count`` − 1.
+into a pool. An axis is meant by its index, 0 … ``axis_count`` − 1.
 """
 
 from __future__ import annotations
@@ -16,6 +16,11 @@ AXES = 32
 DELAY_LINE = 249  # delay_cycles < 249 (P-COMP-00058)
 
 ERROR_INPUT = 901  # AXC-901: an input of the axis is not a finite number
+ERROR_UPDATE = 902  # AXC-902: an update does not fit the running machine
+ERROR_LEADSCREW_POINTS = 110638  # an update changes max_points (P-COMP-00059)
+ERROR_CROSS_POINTS = 110639  # P-COMP-00060
+ERROR_PLANE_POINTS = 110640  # P-COMP-00061
+ERROR_FRICTION_POINTS = 110641  # P-COMP-00062
 
 
 @dataclass(slots=True)
@@ -62,6 +67,7 @@ class CrossTable:
     """Cross compensation (kw.crosscomp)."""
 
     switching: SwitchTable
+    max_points: int  # entries the controller reserves
     master: int
     curve: Curve
 
@@ -79,6 +85,7 @@ class PlaneTable:
     """Plane compensation (kw.crosscomp2); correction[j][i] at values + j * points1 + i."""
 
     switching: SwitchTable
+    max_points: int  # entries the controller reserves
     master1: int
     master2: int
     start1: float
@@ -142,6 +149,7 @@ class LeadscrewTable:
     """Leadscrew error compensation (kw.ssfk); both directions share the interpolation points."""
 
     switching: SwitchTable
+    max_points: int  # entries the controller reserves
     positive: Curve
     negative: Curve
     bilateral: bool
@@ -166,6 +174,7 @@ class FrictionTable:
     """Friction compensation (frict_comp)."""
 
     switching: SwitchTable
+    max_points: int  # entries the controller reserves
     curve: Curve
     scaling: float
     position_delay: float
@@ -202,8 +211,10 @@ class ShiftState:
 
 @dataclass(slots=True)
 class AxisTable:
-    """What is fixed for an axis."""
+    """What is fixed for an axis; its tables lie in its pool."""
 
+    number: int  # logical axis number
+    pool: Vec
     modulo_range: float  # 0: no modulo axis
     shift_cycles: int  # over which a shift is released, at least 1
     cross: CrossTable
@@ -285,7 +296,7 @@ class Tables:
     axis: Annotated[list[AxisTable], AXES]
     volumetrics: int  # the last configured one and those before it
     volumetric: Annotated[list[VolumetricTable], VOLUMETRICS]
-    pool: Vec
+    pool: Vec  # of the volumetric compensations
 
 
 @dataclass(slots=True)
