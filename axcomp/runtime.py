@@ -11,18 +11,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from .compile import CYCLE_TIME, compile_tables
-from .kernel.adopt import adopt
+from .kernel.adopt import adopt_axis, adopt_volumetrics, update_error
 from .kernel.cycle import cycle
 from .kernel.record import zero
-from .kernel.records import Inputs, Outputs, State, Tables
-from .machine import KINDS, Axis, Machine
+from .kernel.records import ERROR_UPDATE, Inputs, Outputs, State, Tables
+from .machine import KINDS, Machine
 from .snapshot import SnapshotError, identity_of, pack, unpack
 
 ON_INSTANT = 0.01
 """Share of a cycle by which a communication point may miss the instant of a cycle: hosts add up their steps."""
-
-CAPACITY_ERRORS = {"leadscrew": 110638, "cross": 110639, "plane": 110640, "friction": 110641}
-"""Error when an update changes max_points, by kind (P-COMP-00059 … 00062)."""
 
 
 class UpdateError(ValueError):
@@ -113,8 +110,9 @@ class Runtime:
     def _machine_identity(self) -> int:
         if self._identity is None:
             tables = self.tables
-            used = (tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics], tables.pool)
-            self._identity = identity_of(tables.cycle_time, *used)
+            axes, volumetric = tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics]
+            pools = {id(pool): pool for pool in (tables.pool, *(axis.pool for axis in axes))}
+            self._identity = identity_of(tables.cycle_time, axes, volumetric, *pools.values())
         return self._identity
 
     def notices(self) -> Iterator[str]:
@@ -142,40 +140,31 @@ class Runtime:
         CompileError
             If the machine cannot be run. Nothing has changed in either case.
         """
-        old = {axis.number: axis for axis in self.machine.axes}
         if [(axis.number, axis.name, axis.type) for axis in machine.axes] != [
             (axis.number, axis.name, axis.type) for axis in self.machine.axes
         ]:
             raise UpdateError("the new lists have other axes than the ones in force")
-        for axis in machine.axes:
-            self._refuse_new_kinds(old[axis.number], axis)
         new = {volumetric.index for volumetric in machine.volumetric}
         if not new <= {volumetric.index for volumetric in self.machine.volumetric}:
             raise UpdateError("the new lists have a volumetric compensation that was not there")
-        errors = {axis.name: error for axis in machine.axes if (error := _capacity_error(old[axis.number], axis))}
-        axes = tuple(old[axis.number] if axis.name in errors else axis for axis in machine.axes)
-        machine = replace(machine, axes=axes)
-        tables = compile_tables(machine, self.tables.cycle_time)
-        adopt(self.tables, tables, self.state, self.outputs)
-        self.machine, self.tables = machine, tables
+        before, after = self.tables, compile_tables(machine, self.tables.cycle_time)
+        errors = [update_error(*pair) for pair in zip(before.axis, after.axis, strict=True)]
+        if ERROR_UPDATE in errors:
+            name = machine.axes[errors.index(ERROR_UPDATE)].name
+            raise UpdateError(f"the new lists give axis {name} a compensation it did not have")
+        axes = list(machine.axes)
+        for index, error in enumerate(errors[: len(axes)]):
+            state, outputs = self.state.axis[index], self.outputs.axis[index]
+            if error == 0:
+                adopt_axis(before.axis[index], after.axis[index], state, outputs)
+            else:
+                after.axis[index] = before.axis[index]
+                axes[index] = self.machine.axes[index]
+            state.error = outputs.error = error
+        adopt_volumetrics(before, after, self.state, self.outputs)
+        self.machine, self.tables = replace(machine, axes=tuple(axes)), after
         self._identity = None
-        for axis, state, outputs in zip(machine.axes, self.state.axis, self.outputs.axis, strict=True):
-            state.error = outputs.error = errors.get(axis.name, 0)
-        return errors
-
-    def _refuse_new_kinds(self, old: Axis, new: Axis) -> None:
-        for kind in KINDS:
-            if getattr(new, kind) is not None and getattr(old, kind) is None:
-                raise UpdateError(f"the new lists give axis {new.name} a {kind} compensation it did not have")
-
-
-def _capacity_error(old: Axis, new: Axis) -> int:
-    """Return the error of the first kind whose max_points differs, 0 where none does."""
-    for kind, error in CAPACITY_ERRORS.items():
-        before, after = getattr(old, kind), getattr(new, kind)
-        if before is not None and after is not None and before.max_points != after.max_points:
-            return error
-    return 0
+        return {axis.name: error for axis, error in zip(axes, errors, strict=False) if error}
 
 
 __all__ = ["Runtime", "SnapshotError", "UpdateError", "initial_inputs"]
