@@ -92,7 +92,6 @@ class TestClock:
             time += step
             runtime.advance(time)
             assert abs(runtime.cycles - (time - start) / 1e-3) < 1.0 + 0.011
-        assert runtime.cycles >= 1
 
     def test_steps_shorter_than_a_cycle_hold_the_outputs(self) -> None:
         runtime = self.runtime()
@@ -314,7 +313,7 @@ class TestUpdate:
             (Machine((X,)), "other axes"),
             (Machine((Z, X)), "other axes"),
             (Machine((replace(X, name="U"), Z)), "other axes"),
-            (Machine((replace(X, cross=Z.cross), Z)), "axis X a cross compensation"),
+            (Machine((replace(X, cross=Z.cross), Z)), "axis X a compensation"),
         ],
     )
     def test_what_the_variables_do_not_allow_is_refused_as_a_whole(self, new: Machine, sentence: str) -> None:
