@@ -21,7 +21,7 @@ PATH needs a plant.json beside the lists: drives, friction and geometric errors 
 
 examples:
   axcomp demo
-  axcomp demo --machine models/rotary_table --output /tmp/demo
+  axcomp demo --machine models/rotary_table --output demo
 """
 
 
