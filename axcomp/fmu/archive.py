@@ -23,6 +23,14 @@ class BuildError(Exception):
     """An FMU cannot be built; the message is a sentence for the user."""
 
 
+def file_bytes(path: Path) -> bytes:
+    """Return the contents of a file; BuildError if it cannot be read."""
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise BuildError(f"{path} cannot be read: {error.strerror or error}") from None
+
+
 def content_guid(parts: Mapping[str, bytes]) -> str:
     """Return a GUID in braces that depends on names and contents only."""
     digest = hashlib.sha256()

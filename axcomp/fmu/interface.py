@@ -87,4 +87,4 @@ class Interface:
         if len(axes) > AXES_MAX:
             complaints.append(f"more than {AXES_MAX} axes: nothing is corrected")
             return self.bare(), complaints
-        return Machine(tuple(axes)), complaints
+        return replace(machine, axes=tuple(axes)), complaints

@@ -7,26 +7,24 @@ import importlib.util
 import os
 import tomllib
 from collections.abc import Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import NamedTuple
 
 from ..compile import CYCLE_TIME, compile_tables
 from ..compile_pool import CompileError
-from ..lists import Finding, list_files, read_machine
+from ..lists import Finding, read_machine
 from ..machine import Machine
 from ..places import fmu_sources
-from .archive import BuildError, content_guid, generation_date, write_fmu
+from .archive import BuildError, content_guid, file_bytes, generation_date, write_fmu
 from .description import Description, model_description
 from .interface import FILE_NAME, Interface
+from .packed_lists import packed_lists
 from .plant import read_plant
 from .sources import renamed_sources
 from .variable import Variable
-from .variables import Naming, variables_of
+from .variables import Naming, identifier, variables_of
 
 PACKAGE = Path(__file__).resolve().parents[1]
-LISTS = "machine"
-"""Folder of the lists in ``resources``."""
-
 STEP_OF_PLANT = 0.001
 
 
@@ -74,10 +72,10 @@ def package_axcomp(
         compile_tables(machine, cycle_time)
     except CompileError as error:
         raise BuildError(f"{lists}: {error}") from None
-    place, resources = _packed_lists(Path(lists))
+    place, resources = packed_lists(Path(lists))
     resources[FILE_NAME] = Interface.of(machine, place, cycle_time).to_json().encode()
     variables = variables_of(machine, naming, cycle_time)
-    names = ", ".join(axis.name for axis in machine.axes)
+    names = ", ".join(identifier(axis.name) for axis in machine.axes)
     description = Description(
         name="axcomp",
         text=f"Axis compensations of {names}",
@@ -114,7 +112,7 @@ def package_plant(
         capabilities={"needsExecutionTool": external_tool},
     )
     sources = (fmu_sources() / "plant_slave.py", fmu_sources() / "plant_model")
-    return _write("plant.fmu", output, description, variables, sources, {file.name: _bytes(file)})
+    return _write("plant.fmu", output, description, variables, sources, {file.name: file_bytes(file)})
 
 
 def version() -> str:
@@ -155,38 +153,15 @@ def _pythonfmu(model_identifier: str) -> dict[str, bytes]:
     if spec is None or spec.origin is None:
         raise BuildError("pythonfmu is not installed: pip install 'pythonfmu>=0.7,<0.8'")
     folder = Path(spec.origin).parent
-    files = {f"resources/pythonfmu/{path.name}": _bytes(path) for path in folder.glob("*.py")}
+    files = {f"resources/pythonfmu/{path.name}": file_bytes(path) for path in folder.glob("*.py")}
     binaries = folder / "resources" / "binaries"
     libraries = [path for pattern in ("*.so", "*.dll", "*.dylib") for path in binaries.rglob(pattern)]
     if not libraries:
         raise BuildError(f"pythonfmu has no libraries in {binaries}; install it again.")
     for path in libraries:
         platform = path.parent.relative_to(binaries).as_posix()
-        files[f"binaries/{platform}/{model_identifier}{path.suffix}"] = _bytes(path)
+        files[f"binaries/{platform}/{model_identifier}{path.suffix}"] = file_bytes(path)
     for license_file in importlib.metadata.files("pythonfmu") or ():
         if license_file.name == "LICENSE":
             files["documentation/licenses/pythonfmu.txt"] = license_file.read_binary()
     return files
-
-
-def _packed_lists(lists: Path) -> tuple[str, dict[str, bytes]]:
-    """Return what to read in ``resources``, and the files: they lie to each other as they do on disk."""
-    start, *found = (_absolute(path) for path in (lists, *list_files(lists)))
-    try:
-        root = Path(os.path.commonpath([start if start.is_dir() else start.parent, *(path.parent for path in found)]))
-    except ValueError:
-        raise BuildError(f"{lists}: the lists lie on different drives.") from None
-    place = PurePosixPath(LISTS, start.relative_to(root).as_posix())
-    return str(place), {str(PurePosixPath(LISTS, path.relative_to(root).as_posix())): _bytes(path) for path in found}
-
-
-def _absolute(path: Path) -> Path:
-    """Return a path from the root, links as they are named: the lists' names must lead to the same files."""
-    return Path(os.path.normpath(path.absolute()))
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise BuildError(f"{path} cannot be read: {error.strerror or error}") from None

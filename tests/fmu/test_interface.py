@@ -7,6 +7,7 @@ from fmu_machines import three_axes
 
 from axcomp.fmu.interface import Interface
 from axcomp.machine import AXES_MAX, Axis, AxisType, Machine
+from axcomp.volumetric import Volumetric
 
 INTERFACE = Interface.of(three_axes(), "machine/hochlauf.lis", 0.001)
 
@@ -24,6 +25,12 @@ def test_the_same_machine_fits() -> None:
 def test_axes_take_the_order_of_the_variables() -> None:
     x, y, c = three_axes().axes
     assert INTERFACE.fit(Machine((c, x, y))) == (three_axes(), [])
+
+
+def test_volumetric_compensations_stay() -> None:
+    volumetric = (Volumetric(0, (("X", 1), ("Y", 2), ("Z", 3))),)
+    machine = replace(three_axes(), volumetric=volumetric)
+    assert INTERFACE.fit(machine) == (machine, [])
 
 
 def test_an_axis_that_is_gone_is_not_corrected() -> None:

@@ -71,6 +71,14 @@ def test_lists_lie_to_each_other_as_they_do_on_disk(tmp_path: Path) -> None:
     assert not [name for name, data in files.items() if str(tmp_path).encode() in data or b"private" in data]
 
 
+def test_lists_that_name_others_by_absolute_paths_do_not_go_into_an_fmu(lists: Path, tmp_path: Path) -> None:
+    start = tmp_path / "hochlauf.lis"
+    start.write_text(f"zahl_kw 1\nachs_kw[0] {lists / 'achskw1.lis'}\n", encoding="utf-8")
+    assert read_machine(start).machine.axes
+    with pytest.raises(BuildError, match=r"achskw1\.lis by an absolute path; in an FMU, names must be relative"):
+        package_axcomp(start, tmp_path / "x.fmu")
+
+
 def test_a_single_list_is_a_machine(lists: Path, tmp_path: Path) -> None:
     built = package_axcomp(lists / "achskw3.lis", tmp_path / "one.fmu")
     names = [name for name in contents(built.path) if name.startswith("resources/machine/")]

@@ -1,0 +1,56 @@
+"""The installed wheel: it builds in any folder what the checkout builds."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+from axcomp.fmu.package import package_axcomp, package_plant
+from axcomp.places import models
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*command: str | Path, cwd: Path) -> str:
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    result = subprocess.run(
+        [str(part) for part in command], cwd=cwd, env=environment, capture_output=True, text=True, check=False
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Scripts folder of a fresh virtual environment with the wheel; its dependencies are those of this one."""
+    folder = tmp_path_factory.mktemp("wheel")
+    isolation = ["--no-build-isolation"] if importlib.util.find_spec("hatchling") else []
+    run(sys.executable, "-m", "pip", "wheel", "--no-deps", *isolation, "-w", folder, ROOT, cwd=folder)
+    (wheel,) = folder.glob("*.whl")
+    run(sys.executable, "-m", "venv", "--without-pip", folder / "venv", cwd=folder)
+    variables = {"base": str(folder / "venv"), "platbase": str(folder / "venv")}
+    packages = Path(sysconfig.get_path("purelib", "venv", variables))
+    (packages / "dependencies.pth").write_text(sysconfig.get_path("purelib"), encoding="utf-8")
+    scripts = Path(sysconfig.get_path("scripts", "venv", variables))
+    run(sys.executable, "-m", "pip", "--python", scripts / "python", "install", "--no-deps", wheel, cwd=folder)
+    return scripts
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_builds_the_same_fmus_in_any_folder(installed: Path, tmp_path: Path) -> None:
+    place = run(installed / "python", "-c", "import axcomp; print(axcomp.__file__)", cwd=tmp_path).strip()
+    assert Path(place).is_relative_to(installed.parent)
+    output = run(installed / "axcomp", "build", cwd=tmp_path)
+    assert "axcomp.fmu" in output
+    checkout = tmp_path / "checkout"
+    checkout.mkdir()
+    package_axcomp(models() / "three_axis", checkout)
+    package_plant(models() / "three_axis", checkout)
+    for name in ("axcomp.fmu", "plant.fmu"):
+        assert (tmp_path / name).read_bytes() == (checkout / name).read_bytes()
