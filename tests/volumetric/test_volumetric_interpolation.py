@@ -170,9 +170,7 @@ def test_on_a_path_the_nearest_point_of_the_polyline_counts(
         # Walk along the polyline in small steps: the value is that of a point no farther than any of these.
         s = np.linspace(0.0, 1.0, 401)[:, None]
         feet = np.vstack([a + s * (b - a) for a, b in itertools.pairwise(path)] or [path])
-        along = np.concatenate(
-            [(1 - s[:, 0]) * a + s[:, 0] * b for a, b in itertools.pairwise(values)] or [values]
-        )
+        along = np.concatenate([(1 - s[:, 0]) * a + s[:, 0] * b for a, b in itertools.pairwise(values)] or [values])
         distances = np.linalg.norm(feet - place, axis=1)
         near = distances <= distances.min() + 0.1
         assert along[near].min() - 1e-2 <= value <= along[near].max() + 1e-2

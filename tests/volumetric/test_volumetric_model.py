@@ -172,7 +172,8 @@ def test_offsets_are_added_to_the_setpoints_before_anything_else() -> None:
     errors = {"EBY": 1e-3, "X0C": 0.2, "ECC": 1e-3}
     machine = with_constant_errors(volumetric("CYXZ", workpiece_axes=1, centers=CENTERS), errors)
     shifted = with_constant_errors(
-        volumetric("CYXZ", workpiece_axes=1, centers=CENTERS, offsets=(0.0, 0.0, -550.0, 0.0, 0.0, np.radians(30.0))), errors
+        volumetric("CYXZ", workpiece_axes=1, centers=CENTERS, offsets=(0.0, 0.0, -550.0, 0.0, 0.0, np.radians(30.0))),
+        errors,
     )
     place = {"X": 10.0, "Y": 20.0, "Z": 650.0, "C": 40.0}
     same = {"X": 10.0, "Y": 20.0, "Z": 100.0, "C": 70.0}
