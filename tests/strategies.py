@@ -208,6 +208,8 @@ def axes(draw: st.DrawFn, number: int, name: str, kinds: dict[int, AxisType]) ->
         axis_type,
         modulo,
         draw(st.integers(0, 20)),
+        volumetric_limit=draw(st.none() | numbers(0.0001, 10.0)),
+        gantry_master=draw(st.none() | st.sampled_from(list(kinds))),
         cross=draw(st.none() | crosses(list(kinds))),
         plane=draw(st.none() | planes(turning)) if turning else None,
         crosstalk=crosstalk,
