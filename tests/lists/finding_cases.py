@@ -100,6 +100,15 @@ def machine(code: str, files: dict[str, str | bytes], line: int, parameter: str,
     return Case(code, files, line, parameter, kinds)
 
 
+def one_axis(compensation: str, axis: str) -> dict[str, str | bytes]:
+    """Return the lists of a machine with axis 1 only."""
+    return {
+        "hochlauf.lis": start_up("kw.lis", axes=MDS),
+        "kw.lis": compensation,
+        "achsmd1.lis": axis_list(1, axis),
+    }
+
+
 MDS = ("achsmd1.lis",)
 THREE_AXES = {"achsmd1.lis": axis_list(1), "achsmd2.lis": axis_list(2), "achsmd3.lis": axis_list(3)}
 
@@ -155,11 +164,7 @@ CASES = [
     ),
     machine(
         "AXC-UNIT",
-        {
-            "hochlauf.lis": start_up("kw.lis", axes=MDS),
-            "kw.lis": LEADSCREW.replace("kw.ssfk.unit 1\n", ""),
-            "achsmd1.lis": axis_list(1, "lr_param.ssfk 1\ngetriebe[0].wegaufz 4\n"),
-        },
+        one_axis(LEADSCREW.replace("kw.ssfk.unit 1\n", ""), "lr_param.ssfk 1\ngetriebe[0].wegaufz 4\n"),
         0,
         "kw.ssfk.unit",
         "leadscrew",
@@ -227,7 +232,7 @@ CASES = [
     # Compensations
     machine(
         "AXC-INACTIVE",
-        {"hochlauf.lis": start_up("kw.lis", axes=MDS), "kw.lis": LEADSCREW, "achsmd1.lis": axis_list(1)},
+        one_axis(LEADSCREW, ""),
         5,
         "kw.ssfk.table[0].pos",
     ),
@@ -245,11 +250,7 @@ CASES = [
     one("AXC-MASTER", CROSS.replace("kw.crosscomp.master_ax_nr 2\n", ""), 0, "kw.crosscomp.master_ax_nr"),
     machine(
         "AXC-MASTER",
-        {
-            "hochlauf.lis": start_up("kw.lis", axes=MDS),
-            "kw.lis": CROSS,
-            "achsmd1.lis": axis_list(1, "lr_param.crosscomp 1\n"),
-        },
+        one_axis(CROSS, "lr_param.crosscomp 1\n"),
         4,
         "kw.crosscomp.master_ax_nr",
     ),
@@ -289,21 +290,19 @@ CASES = [
     one("AXC-MODULO-AXIS", f"kw.ssfk.modulo 1\n{LEADSCREW}", 1, "kw.ssfk.modulo", "leadscrew"),
     machine(
         "AXC-MODULO-SPAN",
-        {
-            "hochlauf.lis": start_up("kw.lis", axes=MDS),
-            "kw.lis": f"kw.ssfk.modulo 1\n{LEADSCREW}".replace("interval 100000", "interval 1800001"),
-            "achsmd1.lis": axis_list(1, "lr_param.ssfk 1\nkenngr.achs_typ 2\nkenngr.achs_mode 0x4\n"),
-        },
+        one_axis(
+            f"kw.ssfk.modulo 1\n{LEADSCREW}".replace("interval 100000", "interval 1800001"),
+            "lr_param.ssfk 1\nkenngr.achs_typ 2\nkenngr.achs_mode 0x4\n",
+        ),
         1,
         "kw.ssfk.modulo",
     ),
     machine(
         "AXC-MODULO-SEAM",
-        {
-            "hochlauf.lis": start_up("kw.lis", axes=MDS),
-            "kw.lis": f"kw.ssfk.modulo 1\n{LEADSCREW}".replace("interval 100000", "interval 1800000"),
-            "achsmd1.lis": axis_list(1, "lr_param.ssfk 1\nkenngr.achs_typ 2\nkenngr.achs_mode 0x4\n"),
-        },
+        one_axis(
+            f"kw.ssfk.modulo 1\n{LEADSCREW}".replace("interval 100000", "interval 1800000"),
+            "lr_param.ssfk 1\nkenngr.achs_typ 2\nkenngr.achs_mode 0x4\n",
+        ),
         1,
         "kw.ssfk.modulo",
         "leadscrew",
@@ -360,11 +359,7 @@ CASES = [
     one("70182", PLANE.replace("kw.crosscomp2.master2_ax_nr 3\n", ""), 0, "kw.crosscomp2.master2_ax_nr"),
     machine(
         "70182",
-        {
-            "hochlauf.lis": start_up("kw.lis", axes=MDS),
-            "kw.lis": PLANE,
-            "achsmd1.lis": axis_list(1, "lr_param.crosscomp2 1\n"),
-        },
+        one_axis(PLANE, "lr_param.crosscomp2 1\n"),
         4,
         "kw.crosscomp2.master1_ax_nr",
     ),
@@ -391,7 +386,7 @@ CASES = [
     one("70245", CROSS.replace("last_index 1", "last_index 2"), 7, "kw.crosscomp.table[2].setpoint"),
     machine(
         "70495",
-        {"hochlauf.lis": start_up("kw.lis", axes=MDS), "kw.lis": FRICTION, "achsmd1.lis": axis_list(1)},
+        one_axis(FRICTION, ""),
         4,
         "frict_comp.table[0].in",
     ),
