@@ -13,9 +13,10 @@ from dataclasses import replace
 from .compile import CYCLE_TIME, compile_tables
 from .kernel.adopt import adopt_axis, adopt_volumetrics, update_error
 from .kernel.cycle import cycle
+from .kernel.initial import set_initial_inputs
 from .kernel.record import zero
 from .kernel.records import ERROR_UPDATE, Inputs, Outputs, State, Tables
-from .machine import KINDS, Machine
+from .machine import Machine
 from .snapshot import SnapshotError, identity_of, pack, unpack
 
 ON_INSTANT = 0.01
@@ -27,18 +28,11 @@ class UpdateError(ValueError):
 
 
 def initial_inputs(tables: Tables) -> Inputs:
-    """Return the inputs before anybody sets them: referenced, and enabled what activates automatically."""
+    """Return the inputs before anybody sets them."""
     inputs = zero(Inputs)
     del inputs.axis[tables.axis_count :]
-    for table, axis in zip(tables.axis, inputs.axis, strict=False):
-        axis.referenced = True
-        for kind in KINDS:
-            switch = getattr(table, kind).switching
-            setattr(axis, f"{kind}_enable", switch.configured and not switch.manual)
     del inputs.volumetric[tables.volumetrics :]
-    for volumetric, given in zip(tables.volumetric, inputs.volumetric, strict=False):
-        given.enable = volumetric.configured and not volumetric.manual
-        given.factor[:] = [1.0] * len(given.factor)
+    set_initial_inputs(tables, inputs)
     return inputs
 
 
