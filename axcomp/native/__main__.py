@@ -1,0 +1,21 @@
+"""Write the C sources that follow from the declarations: ``python -m axcomp.native``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..places import fmu_sources
+from .places import layout_header, places_source
+
+
+def write(folder: Path) -> list[Path]:
+    """Write ``layout.h`` and ``places.c``; return their paths."""
+    texts = {"layout.h": layout_header(), "places.c": places_source()}
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+    return [folder / name for name in texts]
+
+
+if __name__ == "__main__":
+    for path in write(fmu_sources() / "native"):
+        print(f"wrote {path.name}")

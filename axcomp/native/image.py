@@ -1,0 +1,51 @@
+"""Tables as an image: what ``fmu_src/native/image.c`` reads, from a file or from an array in the sources."""
+
+from __future__ import annotations
+
+import ctypes
+import struct
+import zlib
+from dataclasses import replace
+from typing import Any
+
+from ..kernel.records import Tables
+from .layout import ctypes_of, to_c
+from .places import layout
+
+MAGIC = b"AXCOMPT1"
+HEADER_BEFORE_CHECK = struct.Struct("<8sIHHI")
+HEADER_AFTER_CHECK = struct.Struct("<40sd")
+WORDS_A_LINE = 6
+
+
+def image_of(tables: Tables, guid: str) -> bytes:
+    """Return the image of tables; ``guid``: that of the modelDescription.xml they belong to, at most 39 characters."""
+    axes = tables.axis[: tables.axis_count]
+    volumetrics = tables.volumetric[: tables.volumetrics]
+    body = b"".join(_bytes_of(replace(axis, pool=[])) for axis in axes)
+    body += b"".join(_bytes_of(volumetric) for volumetric in volumetrics)
+    body += struct.pack(f"<{len(tables.pool)}d", *tables.pool)
+    before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(tables.pool))
+    checked = HEADER_AFTER_CHECK.pack(guid.encode().ljust(40, b"\0")[:40], tables.cycle_time) + body
+    return before + struct.pack("<I", zlib.crc32(checked)) + checked
+
+
+def image_source(image: bytes) -> str:
+    """Return an image as C: an array of 64-bit words, so that it is aligned as the records are."""
+    padded = image.ljust(-(-len(image) // 8) * 8, b"\0")
+    words = [f"0x{word:x}u" for (word,) in struct.iter_unpack("<Q", padded)]
+    lines = [", ".join(words[i : i + WORDS_A_LINE]) for i in range(0, len(words), WORDS_A_LINE)]
+    return (
+        "/* The tables of this machine; see image.h. */\n"
+        f"const unsigned int axcomp_image_size = {len(image)}u;\n"
+        f"const unsigned long long axcomp_image[{len(words)}] = {{\n    " + ",\n    ".join(lines) + "\n};\n"
+    )
+
+
+def _bytes_of(record: Any) -> bytes:
+    structure = ctypes_of(type(record))()
+    to_c(record, structure)
+    for name, kind, *_ in structure._fields_:
+        if kind is ctypes.POINTER(ctypes.c_double):
+            setattr(structure, name, None)
+    return bytes(structure)

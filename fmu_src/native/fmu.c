@@ -1,0 +1,655 @@
+/* The functions of FMI 2.0 for co-simulation. Each first looks whether it may be called now, and with what. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmi2.h"
+#include "instance.h"
+#include "places.h"
+
+#if defined(AXCOMP_EMBEDDED)
+extern const unsigned long long axcomp_image[];
+extern const unsigned int axcomp_image_size;
+#endif
+
+enum {
+    ANY_PHASE = INSTANTIATED | INITIALIZATION | STEPPING | TERMINATED,
+    BEFORE_STEPS = INSTANTIATED | INITIALIZATION,
+    WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING,
+    WITH_VALUES = INITIALIZATION | STEPPING | TERMINATED
+};
+
+static const char STATE_MAGIC[8] = {'A', 'X', 'C', 'O', 'M', 'P', 'F', '1'};
+
+/* A state of the FMU: a copy of everything that changes, and the lists in force. */
+typedef struct {
+    const Lists *lists;
+    const Lists *waiting;
+    Memory memory;
+} Saved;
+
+/* Before the bytes of a serialized state. */
+typedef struct {
+    char magic[8];
+    uint32_t layout;
+    uint32_t size;
+    uint32_t lists;    /* identity of the lists in force */
+    uint32_t waiting;  /* and of those that wait; 0: none */
+    uint32_t check;    /* CRC-32 of the bytes */
+    uint32_t spare;
+} SavedHeader;
+
+#define SERIALIZED_SIZE (sizeof(SavedHeader) + sizeof(Memory))
+
+/* The instance, if this call is allowed in its phase; else NULL, after telling the host. */
+static Instance *allowed(fmi2Component component, unsigned phases, const char *function)
+{
+    Instance *instance = (Instance *)component;
+    if (instance == NULL) {
+        return NULL;
+    }
+    if ((instance->memory.phase & phases) == 0) {
+        say(instance, fmi2Error, "%s must not be called now", function);
+        return NULL;
+    }
+    return instance;
+}
+
+/* ---- What is the same for all FMUs ---- */
+
+FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void)
+{
+    return fmi2TypesPlatform;
+}
+
+FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void)
+{
+    return fmi2Version;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, fmi2Boolean on, size_t count,
+                                                      const fmi2String categories[])
+{
+    Instance *instance = allowed(component, ANY_PHASE, "fmi2SetDebugLogging");
+    if (instance == NULL || (count > 0 && categories == NULL)) {
+        return fmi2Error;
+    }
+    unsigned wanted = count == 0 ? ~0u : 0u;
+    for (size_t i = 0; i < count; i++) {
+        int known = -1;
+        for (int k = 0; k < CATEGORIES; k++) {
+            if (categories[i] != NULL && strcmp(categories[i], LOG_CATEGORIES[k]) == 0) {
+                known = k;
+            }
+        }
+        if (known < 0) {
+            return say(instance, fmi2Error, "fmi2SetDebugLogging: there is no log category %s",
+                       categories[i] != NULL ? categories[i] : "NULL");
+        }
+        wanted |= known == CATEGORY_ALL ? ~0u : 1u << known;
+    }
+    instance->logging = on != fmi2False;
+    instance->categories = wanted;
+    return fmi2OK;
+}
+
+/* ---- Creation and destruction ---- */
+
+/* Read the image that belongs to this FMU; returns 0 after telling the host why it cannot. */
+static int read_own_image(Instance *instance, fmi2String location)
+{
+#if defined(AXCOMP_EMBEDDED)
+    (void)location;
+    const char *complaint = read_image((const unsigned char *)axcomp_image, axcomp_image_size, instance->first);
+    const char *path = "the image in the sources";
+#else
+    char path[PATH_LENGTH];
+    size_t size = 0;
+    if (location == NULL || !path_of(location, "tables.bin", path)) {
+        say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
+        return 0;
+    }
+    unsigned char *data = read_file(path, &size);
+    if (data == NULL) {
+        say(instance, fmi2Error, "fmi2Instantiate: %s cannot be read", path);
+        return 0;
+    }
+    const char *complaint = read_image(data, size, instance->first);
+    free(data);
+#endif
+    if (complaint != NULL) {
+        say(instance, fmi2Error, "fmi2Instantiate: %s is refused: %s", path, complaint);
+    }
+    return complaint == NULL;
+}
+
+FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
+                                                     fmi2String location, const fmi2CallbackFunctions *callbacks,
+                                                     fmi2Boolean visible, fmi2Boolean logging)
+{
+    (void)visible;
+    Instance *instance = (Instance *)calloc(1, sizeof *instance);
+    if (instance == NULL) {
+        return NULL;
+    }
+    if (callbacks != NULL) {
+        instance->callbacks = *callbacks;
+    }
+    instance->logging = logging != fmi2False;
+    instance->categories = ~0u;
+    const char *known = name != NULL ? name : "";
+    instance->name = (char *)malloc(strlen(known) + 1);
+    instance->first = (Lists *)calloc(1, sizeof *instance->first);
+    if (instance->name == NULL || instance->first == NULL) {
+        free_instance(instance);
+        return NULL;
+    }
+    memcpy(instance->name, known, strlen(known) + 1);
+
+    int usable = 0;
+    if (known[0] == 0) {
+        say(instance, fmi2Error, "fmi2Instantiate: the instance has no name");
+    } else if (type != fmi2CoSimulation) {
+        say(instance, fmi2Error, "fmi2Instantiate: this is an FMU for co-simulation");
+    } else if (guid == NULL) {
+        say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
+    } else if (read_own_image(instance, location)) {
+        usable = strcmp(guid, instance->first->guid) == 0;
+        if (!usable) {
+            say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,
+                instance->first->guid);
+        }
+    }
+    if (!usable) {
+        free_instance(instance);
+        return NULL;
+    }
+    begin_again(instance);
+    return instance;
+}
+
+FMI2_EXPORT void FMI2_NAME(fmi2FreeInstance)(fmi2Component component)
+{
+    if (component != NULL) {
+        free_instance((Instance *)component);
+    }
+}
+
+/* ---- Phases ---- */
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component component, fmi2Boolean tolerance_defined,
+                                                      fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_defined,
+                                                      fmi2Real stop)
+{
+    (void)tolerance_defined;
+    (void)tolerance;
+    Instance *instance = allowed(component, INSTANTIATED, "fmi2SetupExperiment");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    if (!isfinite(start) || (stop_defined && !(stop >= start))) {
+        return say(instance, fmi2Error, "fmi2SetupExperiment: start and stop time do not fit");
+    }
+    instance->memory.start_time = start;
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2EnterInitializationMode)(fmi2Component component)
+{
+    Instance *instance = allowed(component, INSTANTIATED, "fmi2EnterInitializationMode");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    instance->memory.phase = INITIALIZATION;
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component component)
+{
+    Instance *instance = allowed(component, INITIALIZATION, "fmi2ExitInitializationMode");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    preview_outputs(instance);
+    instance->memory.phase = STEPPING;
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Terminate)(fmi2Component component)
+{
+    Instance *instance = allowed(component, STEPPING, "fmi2Terminate");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    instance->memory.phase = TERMINATED;
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Reset)(fmi2Component component)
+{
+    Instance *instance = allowed(component, ANY_PHASE, "fmi2Reset");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    begin_again(instance);
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component component, fmi2Real time, fmi2Real step,
+                                             fmi2Boolean no_set_state_before)
+{
+    (void)no_set_state_before;
+    Instance *instance = allowed(component, STEPPING, "fmi2DoStep");
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    if (!isfinite(time) || !isfinite(step) || step < 0.0) {
+        return say(instance, fmi2Error, "fmi2DoStep: time and step size must be finite, and the step not negative");
+    }
+    return advance(instance, time + step);
+}
+
+/* ---- Values ---- */
+
+/* Where the value of a reference is, and of what kind; NULL after telling the host that there is none. */
+static void *place_of(Instance *instance, fmi2ValueReference reference, char type, const Place **place)
+{
+    Memory *memory = &instance->memory;
+    unsigned block = reference / PLACES;
+    void *record = NULL;
+    *place = NULL;
+    if (block == MACHINE_BLOCK) {
+        *place = &MACHINE_PLACES[reference % PLACES];
+        record = memory;
+    } else if (block >= AXIS_BLOCK && block < AXIS_BLOCK + (unsigned)instance->lists->tables.axis_count) {
+        *place = &AXIS_PLACES[reference % PLACES];
+        record = (*place)->causality == 'o' ? (void *)&memory->outputs.axis[block - AXIS_BLOCK]
+                                            : (void *)&memory->inputs.axis[block - AXIS_BLOCK];
+    } else if (block >= VOLUMETRIC_BLOCK && block < VOLUMETRIC_BLOCK + (unsigned)instance->lists->tables.volumetrics) {
+        *place = &VOLUMETRIC_PLACES[reference % PLACES];
+        record = (*place)->causality == 'o' ? (void *)&memory->outputs.volumetric[block - VOLUMETRIC_BLOCK]
+                                            : (void *)&memory->inputs.volumetric[block - VOLUMETRIC_BLOCK];
+    }
+    if (record == NULL || (*place)->type != type) {
+        say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
+        return NULL;
+    }
+    return (char *)record + (*place)->offset;
+}
+
+/* The instance, if values may be read now; during initialization the outputs are computed first. */
+static Instance *readable(fmi2Component component, const void *references, const void *values, size_t count)
+{
+    Instance *instance = allowed(component, WITH_VALUES, "fmi2Get…");
+    if (instance == NULL || (count > 0 && (references == NULL || values == NULL))) {
+        return NULL;
+    }
+    if (instance->memory.phase == INITIALIZATION) {
+        preview_outputs(instance);
+    }
+    return instance;
+}
+
+/* Where a value is to be set; NULL after telling the host that it must not be. */
+static void *settable(Instance *instance, fmi2ValueReference reference, char type, const Place **place)
+{
+    void *value = place_of(instance, reference, type, place);
+    if (value == NULL) {
+        return NULL;
+    }
+    bool fixed = (*place)->causality == 'p' && instance->memory.phase == STEPPING;
+    if ((*place)->causality == 'o' || fixed) {
+        say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
+        return NULL;
+    }
+    return value;
+}
+
+static Instance *writable(fmi2Component component, const void *references, const void *values, size_t count)
+{
+    Instance *instance = allowed(component, WITH_INPUTS, "fmi2Set…");
+    return instance != NULL && (count == 0 || (references != NULL && values != NULL)) ? instance : NULL;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component component, const fmi2ValueReference references[],
+                                              size_t count, fmi2Real values[])
+{
+    Instance *instance = readable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        const double *value = (const double *)place_of(instance, references[i], 'r', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        values[i] = *value;
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component component, const fmi2ValueReference references[],
+                                                 size_t count, fmi2Integer values[])
+{
+    Instance *instance = readable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        const int32_t *value = (const int32_t *)place_of(instance, references[i], 'i', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        values[i] = *value;
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component component, const fmi2ValueReference references[],
+                                                 size_t count, fmi2Boolean values[])
+{
+    Instance *instance = readable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        const bool *value = (const bool *)place_of(instance, references[i], 'b', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        values[i] = *value ? fmi2True : fmi2False;
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetString)(fmi2Component component, const fmi2ValueReference references[],
+                                                size_t count, fmi2String values[])
+{
+    Instance *instance = readable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        const char *value = (const char *)place_of(instance, references[i], 's', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        values[i] = value;
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi2ValueReference references[],
+                                              size_t count, const fmi2Real values[])
+{
+    Instance *instance = writable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        double *value = (double *)settable(instance, references[i], 'r', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        if (place->causality == 'p' && !cycle_time_fits(values[i])) {
+            return say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
+        }
+        *value = values[i];
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component component, const fmi2ValueReference references[],
+                                                 size_t count, const fmi2Integer values[])
+{
+    Instance *instance = writable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        int32_t *value = (int32_t *)settable(instance, references[i], 'i', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        *value = values[i];
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component component, const fmi2ValueReference references[],
+                                                 size_t count, const fmi2Boolean values[])
+{
+    Instance *instance = writable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    bool reload = instance->memory.controls.reload;
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        bool *value = (bool *)settable(instance, references[i], 'b', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        *value = values[i] != fmi2False;
+    }
+    if (instance->memory.controls.reload && !reload) {
+        read_update(instance);
+    } else if (!instance->memory.controls.reload) {
+        instance->waiting = NULL;
+        instance->memory.refused = false;
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const fmi2ValueReference references[],
+                                                size_t count, const fmi2String values[])
+{
+    Instance *instance = writable(component, references, values, count);
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        char *value = (char *)place_of(instance, references[i], 's', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        if (values[i] == NULL || strlen(values[i]) + 1 > PATH_LENGTH) {
+            return say(instance, fmi2Error, "a string is missing, or has more than %d bytes", PATH_LENGTH - 1);
+        }
+        memcpy(value, values[i], strlen(values[i]) + 1);
+    }
+    return fmi2OK;
+}
+
+/* ---- States ---- */
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2FMUstate *state)
+{
+    Instance *instance = allowed(component, ANY_PHASE, "fmi2GetFMUstate");
+    if (instance == NULL || state == NULL) {
+        return fmi2Error;
+    }
+    if (*state == NULL) {
+        *state = malloc(sizeof(Saved));
+    }
+    Saved *saved = (Saved *)*state;
+    if (saved == NULL) {
+        return say(instance, fmi2Error, "fmi2GetFMUstate: there is no memory for the state");
+    }
+    saved->lists = instance->lists;
+    saved->waiting = instance->waiting;
+    saved->memory = instance->memory;
+    return fmi2OK;
+}
+
+/* The instance's own lists with an identity, NULL if it has none. */
+static Lists *lists_with(const Instance *instance, uint32_t identity)
+{
+    Lists *lists = instance->first;
+    while (lists != NULL && lists->identity != identity) {
+        lists = lists->next;
+    }
+    return lists;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2FMUstate state)
+{
+    Instance *instance = allowed(component, ANY_PHASE, "fmi2SetFMUstate");
+    if (instance == NULL || state == NULL) {
+        return fmi2Error;
+    }
+    const Saved *saved = (const Saved *)state;
+    /* The state may be another instance's: what counts are lists that are equal, not the same. */
+    Lists *lists = lists_with(instance, saved->lists->identity);
+    Lists *waiting = saved->waiting == NULL ? NULL : lists_with(instance, saved->waiting->identity);
+    if (lists == NULL || (waiting == NULL) != (saved->waiting == NULL)) {
+        return say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
+    }
+    instance->memory = saved->memory;
+    instance->lists = lists;
+    instance->waiting = waiting;
+    lists->tables.cycle_time = instance->memory.controls.cycle_time;
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2FreeFMUstate)(fmi2Component component, fmi2FMUstate *state)
+{
+    if (component == NULL) {
+        return fmi2Error;
+    }
+    if (state != NULL) {
+        free(*state);
+        *state = NULL;
+    }
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializedFMUstateSize)(fmi2Component component, fmi2FMUstate state, size_t *size)
+{
+    if (component == NULL || state == NULL || size == NULL) {
+        return fmi2Error;
+    }
+    *size = SERIALIZED_SIZE;
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
+                                                        size_t size)
+{
+    Instance *instance = (Instance *)component;
+    if (instance == NULL || state == NULL || bytes == NULL) {
+        return fmi2Error;
+    }
+    if (size < SERIALIZED_SIZE) {
+        return say(instance, fmi2Error, "fmi2SerializeFMUstate: the state has more bytes");
+    }
+    const Saved *saved = (const Saved *)state;
+    SavedHeader header;
+    memset(&header, 0, sizeof header);
+    memcpy(header.magic, STATE_MAGIC, sizeof header.magic);
+    header.layout = AXCOMP_LAYOUT;
+    header.size = (uint32_t)sizeof saved->memory;
+    header.lists = saved->lists->identity;
+    header.waiting = saved->waiting == NULL ? 0 : saved->waiting->identity;
+    header.check = crc32_of(0, &saved->memory, sizeof saved->memory);
+    memcpy(bytes, &header, sizeof header);
+    memcpy(bytes + sizeof header, &saved->memory, sizeof saved->memory);
+    return fmi2OK;
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component component, const fmi2Byte bytes[], size_t size,
+                                                          fmi2FMUstate *state)
+{
+    Instance *instance = (Instance *)component;
+    SavedHeader header;
+    if (instance == NULL || bytes == NULL || state == NULL) {
+        return fmi2Error;
+    }
+    if (size != SERIALIZED_SIZE) {
+        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is truncated, or none of this FMU");
+    }
+    memcpy(&header, bytes, sizeof header);
+    if (memcmp(header.magic, STATE_MAGIC, sizeof header.magic) != 0 || header.layout != AXCOMP_LAYOUT
+        || header.size != sizeof(Memory)) {
+        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is of another version");
+    }
+    if (crc32_of(0, bytes + sizeof header, sizeof(Memory)) != header.check) {
+        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state has been altered");
+    }
+    const Lists *lists = lists_with(instance, header.lists);
+    const Lists *waiting = header.waiting == 0 ? NULL : lists_with(instance, header.waiting);
+    if (lists == NULL || (waiting == NULL && header.waiting != 0)) {
+        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state belongs to other lists");
+    }
+    Saved *saved = (Saved *)malloc(sizeof *saved);
+    if (saved == NULL) {
+        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: there is no memory for the state");
+    }
+    saved->lists = lists;
+    saved->waiting = waiting;
+    memcpy(&saved->memory, bytes + sizeof header, sizeof saved->memory);
+    *state = saved;
+    return fmi2OK;
+}
+
+/* ---- What this FMU does not have ---- */
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetDirectionalDerivative)(fmi2Component component,
+                                                               const fmi2ValueReference unknowns[], size_t unknown_count,
+                                                               const fmi2ValueReference knowns[], size_t known_count,
+                                                               const fmi2Real seed[], fmi2Real sensitivity[])
+{
+    (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed, (void)sensitivity;
+    Instance *instance = (Instance *)component;
+    return instance == NULL ? fmi2Error : say(instance, fmi2Error, "this FMU has no directional derivatives");
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component component,
+                                                              const fmi2ValueReference references[], size_t count,
+                                                              const fmi2Integer orders[], const fmi2Real values[])
+{
+    (void)references, (void)orders, (void)values;
+    Instance *instance = (Instance *)component;
+    return instance == NULL ? fmi2Error
+        : count == 0        ? fmi2OK
+                            : say(instance, fmi2Error, "this FMU does not interpolate its inputs");
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealOutputDerivatives)(fmi2Component component,
+                                                               const fmi2ValueReference references[], size_t count,
+                                                               const fmi2Integer orders[], fmi2Real values[])
+{
+    (void)references, (void)orders, (void)values;
+    Instance *instance = (Instance *)component;
+    return instance == NULL ? fmi2Error
+        : count == 0        ? fmi2OK
+                            : say(instance, fmi2Error, "this FMU has no derivatives of outputs");
+}
+
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2CancelStep)(fmi2Component component)
+{
+    Instance *instance = (Instance *)component;
+    return instance == NULL ? fmi2Error : say(instance, fmi2Error, "fmi2CancelStep: no step is ever pending");
+}
+
+/* All steps are finished when fmi2DoStep returns: there is no status to ask for. */
+#define STATUS(NAME, TYPE)                                                                                             \
+    FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component, const fmi2StatusKind kind, TYPE *value)            \
+    {                                                                                                                  \
+        (void)kind;                                                                                                    \
+        (void)value;                                                                                                   \
+        return component == NULL ? fmi2Error : fmi2Discard;                                                            \
+    }
+
+STATUS(fmi2GetStatus, fmi2Status)
+STATUS(fmi2GetRealStatus, fmi2Real)
+STATUS(fmi2GetIntegerStatus, fmi2Integer)
+STATUS(fmi2GetBooleanStatus, fmi2Boolean)
+STATUS(fmi2GetStringStatus, fmi2String)

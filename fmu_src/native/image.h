@@ -1,0 +1,50 @@
+/* Tables as an image: what the table compiler made, as a file in resources/ or as an array in the sources.
+ *
+ * Header (64 bytes), AxisTable[axes], VolumetricTable[volumetrics], double[numbers]; little-endian, as the compilers of
+ * all supported platforms lay the records out. Nothing of an image is used before all of it has been checked. */
+#ifndef AXCOMP_IMAGE_H
+#define AXCOMP_IMAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kernel.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { GUID_LENGTH = 40 };
+
+typedef struct {
+    char magic[8];          /* "AXCOMPT1" */
+    uint32_t layout;        /* of the records: AXCOMP_LAYOUT in layout.h */
+    uint16_t axes;
+    uint16_t volumetrics;
+    uint32_t numbers;       /* in the pool */
+    uint32_t check;         /* CRC-32 of everything behind it */
+    char guid[GUID_LENGTH]; /* of the modelDescription.xml that belongs to it; 0 to its end */
+    double cycle_time;      /* s */
+} ImageHeader;
+
+/* Tables in memory. They stay until the instance is freed: a saved state may come back to them. */
+typedef struct Lists {
+    Tables tables;
+    uint32_t identity;  /* equal for equal tables */
+    double cycle_time;   /* s; that of the tables may be set by the host */
+    char guid[GUID_LENGTH];
+    double *pool;  /* owned */
+    struct Lists *next;
+} Lists;
+
+/* CRC-32 (IEEE 802.3) of some bytes, going on from `check` (0 to begin with). */
+uint32_t crc32_of(uint32_t check, const void *data, size_t size);
+
+/* Read an image into `lists`, whose pool is to be freed in any case. Returns NULL, or what is wrong with the image. */
+const char *read_image(const unsigned char *data, size_t size, Lists *lists);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,78 @@
+/* One instance of the FMU: tables, everything that changes, and what the host has said about logging. */
+#ifndef AXCOMP_INSTANCE_H
+#define AXCOMP_INSTANCE_H
+
+#include <stdbool.h>
+
+#include "fmi2.h"
+#include "image.h"
+#include "resource.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where the instance is in the state machine of FMI 2.0 (section 4.2.4); bits, so that calls can name several. */
+typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 8 } Phase;
+
+/* The variables that the kernel does not know. */
+typedef struct {
+    double cycle_time;
+    bool reload;
+    char update_path[PATH_LENGTH];
+} Controls;
+
+/* Everything that changes; a copy of it is a snapshot. */
+typedef struct {
+    State state;
+    Inputs inputs;
+    Outputs outputs;
+    Controls controls;
+    double start_time;  /* s */
+    double cycles;      /* run so far */
+    Phase phase;
+    bool refused;       /* the update that waits for the next step was refused */
+} Memory;
+
+typedef struct {
+    fmi2CallbackFunctions callbacks;
+    char *name;
+    bool logging;
+    unsigned categories;  /* bit k: category k of LOG_CATEGORIES */
+    Lists *lists;         /* in force; all that were ever read hang behind `first` */
+    Lists *waiting;       /* read by `reload`, for the next step; NULL: none */
+    Lists *first;
+    Memory memory;
+    State preview;        /* of the cycle that is computed during initialization, without being run */
+    bool notice_given;    /* that adaptation axes have left the tests' positions */
+} Instance;
+
+enum { CATEGORY_WARNING, CATEGORY_ERROR, CATEGORY_ALL, CATEGORIES };
+extern const char *const LOG_CATEGORIES[CATEGORIES];
+
+/* Tell the host; errors always, the rest if it wants to know. Returns `status`. */
+fmi2Status say(const Instance *instance, fmi2Status status, const char *format, ...);
+
+/* Put the instance back to what it is right after instantiation. */
+void begin_again(Instance *instance);
+
+/* Read an image in `update_path` (on a rising edge of `reload`); the next step takes or refuses it. */
+void read_update(Instance *instance);
+
+/* Compute the outputs of the first cycle without running it. */
+void preview_outputs(Instance *instance);
+
+/* Run the cycles whose instants lie before `time`, s. */
+fmi2Status advance(Instance *instance, double time);
+
+/* Whether the parameter cycle_time is possible. */
+bool cycle_time_fits(double cycle_time);
+
+/* Free everything. */
+void free_instance(Instance *instance);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,27 @@
+/* Where the variable of a value reference is: reference = PLACES * block + identifier. The tables are generated. */
+#ifndef AXCOMP_PLACES_H
+#define AXCOMP_PLACES_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "layout.h"
+
+enum { PLACES = 64 };
+
+typedef struct {
+    char type;       /* 'r' Real, 'i' Integer, 'b' Boolean, 's' String; 0: no variable */
+    char causality;  /* 'i' input, 'o' output, 'p' fixed parameter, 't' tunable parameter */
+    unsigned offset; /* in Memory; of an axis or a volumetric compensation: in its inputs or outputs */
+} Place;
+
+extern const Place MACHINE_PLACES[PLACES];
+extern const Place AXIS_PLACES[PLACES];
+extern const Place VOLUMETRIC_PLACES[PLACES];
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

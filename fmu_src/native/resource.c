@@ -1,0 +1,117 @@
+/* Paths, URIs and files. A path may hold any character; on Windows it becomes UTF-16 for the system. */
+#include "resource.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(_WIN32)
+#include <wchar.h>
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#endif
+
+static int digit_of(char c)
+{
+    if (c >= '0' && c <= '9') {
+        return c - '0';
+    }
+    if (c >= 'a' && c <= 'f') {
+        return c - 'a' + 10;
+    }
+    if (c >= 'A' && c <= 'F') {
+        return c - 'A' + 10;
+    }
+    return -1;
+}
+
+static int is_drive(const char *text)
+{
+    return ((text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z')) && text[1] == ':';
+}
+
+/* Skip the scheme and the authority of a file URI; a plain path is returned as it is. */
+static const char *path_in_uri(const char *location, int *is_uri)
+{
+    *is_uri = strncmp(location, "file:", 5) == 0;
+    if (!*is_uri) {
+        return location;
+    }
+    location += 5;
+    if (strncmp(location, "//", 2) == 0) {
+        location += 2;
+        if (strncmp(location, "localhost/", 10) == 0) {
+            location += 9;
+        }
+    }
+    while (location[0] == '/' && location[1] == '/') {
+        location++;
+    }
+    return location[0] == '/' && is_drive(location + 1) ? location + 1 : location;
+}
+
+int path_of(const char *location, const char *file, char *path)
+{
+    int is_uri;
+    size_t length = 0;
+    for (const char *from = path_in_uri(location, &is_uri); *from != 0; from++) {
+        int high = is_uri && *from == '%' ? digit_of(from[1]) : -1;
+        int low = high >= 0 ? digit_of(from[2]) : -1;
+        if (length + 2 > PATH_LENGTH) {
+            return 0;
+        }
+        if (low >= 0 && 16 * high + low != 0) {
+            path[length++] = (char)(16 * high + low);
+            from += 2;
+        } else {
+            path[length++] = *from;
+        }
+    }
+    path[length] = 0;
+    if (file != NULL) {
+        int needs_slash = length > 0 && path[length - 1] != '/' && path[length - 1] != '\\';
+        if (length + (size_t)needs_slash + strlen(file) + 1 > PATH_LENGTH) {
+            return 0;
+        }
+        if (needs_slash) {
+            path[length++] = '/';
+        }
+        memcpy(path + length, file, strlen(file) + 1);
+    }
+    return 1;
+}
+
+static FILE *open_file(const char *path)
+{
+#if defined(_WIN32)
+    wchar_t wide[PATH_LENGTH];
+    if (MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, wide, PATH_LENGTH) == 0
+        && MultiByteToWideChar(CP_ACP, 0, path, -1, wide, PATH_LENGTH) == 0) {
+        return NULL;
+    }
+    return _wfopen(wide, L"rb");
+#else
+    return fopen(path, "rb");
+#endif
+}
+
+unsigned char *read_file(const char *path, size_t *size)
+{
+    FILE *file = open_file(path);
+    if (file == NULL) {
+        return NULL;
+    }
+    unsigned char *data = NULL;
+    long length = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+    /* A folder opens too, and claims an absurd length. */
+    if (length >= 0 && length < 0x7fffffffL && fseek(file, 0, SEEK_SET) == 0) {
+        data = (unsigned char *)malloc((size_t)length + 1u);
+        if (data != NULL && fread(data, 1, (size_t)length, file) != (size_t)length) {
+            free(data);
+            data = NULL;
+        }
+        *size = (size_t)length;
+    }
+    fclose(file);
+    return data;
+}
