@@ -14,11 +14,12 @@ from typing import NamedTuple
 QUOTES = '"“”″\x93\x94'
 """Characters that open and close a string; the last two are what Windows' own “ and ” become in Latin-1."""
 
-_NAME_END = rf"(?:\s+|(?=[{QUOTES}])|$)"
+_NAME_END = rf"(?:\s++|(?=[{QUOTES}])|$)"
+# Nothing here can match in two ways, so no repetition need give anything back (++): long tables are read faster.
 _ENTRY = re.compile(
-    r"\s*([^\W0-9][\w.]*)"  # name up to its indices
-    r"(?:\[\s*([0-9]{1,9})\s*\](?:\[\s*([0-9]{1,9})\s*\])?([\w.]*))?"  # at most two indices, and what follows them
-    rf"{_NAME_END}([+-]?[0-9]{{1,18}}(?!\S))?(.*)"  # an integer, if it is one, and what follows
+    r"\s*+([^\W0-9][\w.]*+)"  # name up to its indices
+    r"(?:\[\s*+([0-9]{1,9}+)\s*+\](?:\[\s*+([0-9]{1,9}+)\s*+\])?([\w.]*+))?"  # at most two, and what follows them
+    rf"{_NAME_END}([+-]?[0-9]{{1,18}}+(?!\S))?(.*)"  # an integer, if it is one, and what follows
 )
 _ANY_NAME = re.compile(rf"\s*([^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*){_NAME_END}(.*)")
 _INDEX = re.compile(r"\[([0-9\s]*)\]")
