@@ -11,13 +11,11 @@ from .kernel.volumetric_records import (
     INTERPOLATE_GRID,
     INTERPOLATE_PATH,
     INTERPOLATE_SCATTER,
-    MEMBERS,
     ErrorBlock,
     VolumetricTable,
 )
 from .machine import Machine
 from .volumetric import (
-    ANGLE_MAX,
     COMPENSATIONS_MAX,
     ERRORS,
     LENGTH_MAX,
@@ -28,11 +26,12 @@ from .volumetric import (
     ErrorTable,
     Interpolation,
     Volumetric,
-    is_angle,
     is_grid,
+    largest,
 )
 
 FULL_TURN = 360.0
+SHORTEST = 1e-9  # mm or °; along less than this, searching is left to the bisection
 
 _INTERPOLATIONS = {
     Interpolation.GRID: INTERPOLATE_GRID,
@@ -117,8 +116,7 @@ class _Compiler:
                 raise CompileError(f"{self._name()}: its axis {letter} = {number} does not exist") from None
         for letter, number in volumetric.axes:
             for index, axis in enumerate(self.machine.axes):
-                if number in (axis.number, axis.gantry_master):
-                    self._require(table.members < MEMBERS, f"more than {MEMBERS} axes take part")
+                if number == (axis.number if axis.number in numbers else axis.gantry_master):
                     table.member[table.members] = index
                     table.member_letter[table.members] = LETTERS.index(letter)
                     table.member_limit[table.members] = axis.volumetric_limit or 0.0
@@ -173,7 +171,7 @@ class _Compiler:
             ),
             f"{name} has a node that is no position of {error.arguments}",
         )
-        bound = ANGLE_MAX if is_angle(name) else LENGTH_MAX
+        bound = largest(name)
         self._require(all(abs(value) <= bound for value in error.values), f"{name} has a value beyond ±{bound:g}")
         if error.interpolation in (Interpolation.PATH, Interpolation.PATH_XY):
             self._require(set(error.arguments) <= set(LINEAR), f"{name} has no path over {error.arguments}")
@@ -205,7 +203,8 @@ class _Compiler:
                 block.points[d] = len(knots)
                 block.knots[d] = self._append(knots)
                 if len(knots) > 1:
-                    block.steps_per_unit[d] = (len(knots) - 1) / (knots[-1] - knots[0])
+                    length = knots[-1] - knots[0]
+                    block.steps_per_unit[d] = (len(knots) - 1) / length if length > SHORTEST else 0.0
                     block.steps[d] = self._append(_knots_before(knots, block.steps_per_unit[d]))
         else:
             block.knots[0] = self._append([x for node in nodes for x in node])
@@ -220,7 +219,7 @@ class _Compiler:
 
     def _unit(self, vector: Sequence[float]) -> list[float]:
         """Return a direction scaled as exactly as floats allow: the model inverts rotations by transposing them."""
-        length = math.sqrt(sum(x * x for x in vector))
+        length = math.hypot(*vector)
         self._require(abs(length - 1.0) <= UNIT_TOLERANCE, f"the direction {vector} is not scaled to length 1")
         return [x / length for x in vector]
 

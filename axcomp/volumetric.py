@@ -48,6 +48,8 @@ PARAMETERS = frozenset(ERRORS + DESCRIPTION)
 
 ANGLE_MAX = 1.0
 """Largest angular error that is taken for one, rad; beyond it the file is not in rad."""
+OFFSET_MAX = 6.2832
+"""Largest offset of a rotary axis, rad."""
 LENGTH_MAX = 1e6
 """Largest length, mm."""
 
@@ -62,9 +64,16 @@ COPLANAR = 1e-6
 
 def is_angle(name: str) -> bool:
     """Tell whether a parameter is an angle (rad) rather than a length (mm) or a bare number."""
-    if name.startswith("ID"):
-        return name[2] in ROTARY
+    if name in OFFSETS:
+        return name[-1] in ROTARY
     return name in ERRORS and (name[1] if name[0] == "E" else name[0]) in ROTARY
+
+
+def largest(name: str) -> float:
+    """Return the largest value of a parameter that is plausible, mm or rad."""
+    if not is_angle(name):
+        return LENGTH_MAX
+    return OFFSET_MAX if name in OFFSETS else ANGLE_MAX
 
 
 class Interpolation(enum.Enum):

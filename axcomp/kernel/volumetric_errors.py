@@ -143,7 +143,9 @@ def add_from_path(
             direction = pool[start + block.arguments + d] - pool[start + d]
             along += (x[d] - pool[start + d]) * direction
             square += direction * direction
-        s = min(max(along / square, 0.0), 1.0)
+        s = 0.0
+        if square > 0.0:
+            s = min(max(along / square, 0.0), 1.0)
         distance = 0.0
         for d in range(block.arguments):
             foot = pool[start + d] + s * (pool[start + block.arguments + d] - pool[start + d])

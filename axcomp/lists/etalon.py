@@ -34,6 +34,7 @@ class _Reader:
         self._blocks: dict[str, ParameterBlock] = {}
         self._name = _FREE_TEXT
         self._block = ParameterBlock(file, 0, (), ())
+        self._has_records = False
         self._brace_expected = False
         self._in_braces = False
         self._line = 0
@@ -68,6 +69,7 @@ class _Reader:
         if not closed or rest.strip():
             self._note("AXC-SYNTAX", f"A section is [NAME] alone, not {content!r}; it is read as [{self._name}].")
         self._block = ParameterBlock(self._file, self._line, (), (self._name,))
+        self._has_records = False
         if self._name == _FREE_TEXT or not check_name(self._name, self._file, self._line, self._findings):
             return
         if self._name in self._blocks:
@@ -79,7 +81,7 @@ class _Reader:
         if self._in_braces or self._brace_expected:
             missing = "}" if self._in_braces else "{"
             self._note("AXC-SYNTAX", f"{missing} is missing in [{self._name}]; the records up to here are taken.")
-        if self._blocks.get(self._name) is self._block and not self._block.rows:
+        if self._blocks.get(self._name) is self._block and not self._has_records:
             self._note("AXC-NO-RECORD", f"[{self._name}] has neither VALUE nor Gridpoints; it is not taken.")
         self._in_braces = self._brace_expected = False
 
@@ -113,6 +115,7 @@ class _Reader:
     def _add(self, arguments: tuple[str, ...], cells: list[str]) -> None:
         """Add a record to the parameter of this section; what belongs to no parameter leads nowhere."""
         block = self._block
+        self._has_records = True
         if block.rows and block.arguments != arguments:
             self._note("70469", f"[{self._name}] has both VALUE and Gridpoints; the compensation stays off.")
             return

@@ -18,7 +18,7 @@ _SEPARATORS = str.maketrans(",;", "  ")
 
 def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBlock]:
     """Return the blocks of a file that have records; ``findings`` grows by what is wrong. Never raises on content."""
-    blocks: list[ParameterBlock] = []
+    headers: list[_Columns] = []
     columns: _Columns | None = None
     for line, written in enumerate(text.split("\n"), 1):
         cells = written.partition("//")[0].translate(_SEPARATORS).split()
@@ -33,15 +33,15 @@ def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBloc
                 continue
         if columns is None:
             columns = _Columns([cell.upper() for cell in cells], file, line, findings)
-            blocks.append(columns.block)
+            headers.append(columns)
         else:
             columns.take(cells, line, findings)
-    for block in blocks:
-        if not block.rows:
+    for header in headers:
+        if not header.has_records:
             message = "There is no record below this header; its columns are not taken."
-            findings.add("AXC-NO-RECORD", file, block.line, " ".join(block.names), message)
-        check_values(block, findings)
-    return [block for block in blocks if block.rows]
+            findings.add("AXC-NO-RECORD", file, header.block.line, " ".join(header.block.names), message)
+        check_values(header.block, findings)
+    return [header.block for header in headers if header.block.rows]
 
 
 class _Columns:
@@ -62,10 +62,12 @@ class _Columns:
         self._places = [*arguments.values(), *names.values()]
         self._as_written = self._places == list(range(self._width))
         self.block = ParameterBlock(file, line, tuple(arguments), tuple(names))
+        self.has_records = False
 
     def take(self, cells: list[str], line: int, findings: Findings) -> None:
         """Add a record, or note what is wrong with it."""
         block = self.block
+        self.has_records = True
         if len(cells) != self._width:
             message = f"The record has {len(cells)} columns, its header {self._width}; the compensation stays off."
             findings.add("AXC-RECORD", block.file, line, "", message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from ..volumetric import ANGLE_MAX, LENGTH_MAX, LETTERS, PARAMETERS, is_angle
+from ..volumetric import LENGTH_MAX, LETTERS, PARAMETERS, largest
 from .findings import Findings
 
 ELISIONS = frozenset(("...", "…", ":"))
@@ -68,11 +68,10 @@ def note_elision(mark: str, file: str, line: int, findings: Findings) -> None:
 def check_values(block: ParameterBlock, findings: Findings) -> None:
     """Find values no machine has: angles in degrees, lengths in µm, slips of the keyboard."""
     for column, label in enumerate(block.arguments + block.names):
-        angle = label not in LETTERS and is_angle(label)
-        bound = ANGLE_MAX if angle else LENGTH_MAX
+        bound = LENGTH_MAX if label in LETTERS else largest(label)
         beyond = next((i for i, row in enumerate(block.rows) if abs(row[column]) > bound), None)
         if beyond is not None:
             value = block.rows[beyond][column]
-            unit = "rad" if angle else "mm"
+            unit = "mm" if bound == LENGTH_MAX else "rad"
             message = f"{label} = {value:g} is beyond ±{bound:g} {unit}; the compensation stays off."
             findings.add("AXC-MAGNITUDE", block.file, block.lines[beyond], label, message)

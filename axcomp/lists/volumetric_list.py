@@ -58,10 +58,13 @@ def read_volumetric(lists: MachineFiles, files: Files, axes: Axes, findings: Fin
             path = files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
             text = None if path is None else files.text(path)
             if path is not None and text is not None:
+                errors = findings.errors()
                 values = read_values(text, str(path), ListKind.VOLUMETRIC, findings)
-                volumetric = _VolumetricReader(index, values, lists, files, axes, findings).read()
-                if volumetric is not None:
+                reader = _VolumetricReader(index, values, lists, files, axes, findings)
+                volumetric = reader.read()
+                if findings.errors() == errors:
                     found.append(volumetric)
+                    reader.check_limits(dict(volumetric.axes))
     return tuple(found)
 
 
@@ -78,9 +81,8 @@ class _VolumetricReader:
         self.axes = axes
         self.findings = findings
 
-    def read(self) -> Volumetric | None:
-        """Return the compensation; None where an error keeps it off."""
-        errors_before = self.findings.errors()
+    def read(self) -> Volumetric:
+        """Return the compensation, which must not be used if there are new errors among the findings."""
         values = self.values
         chain = self._chain()
         parameters = assemble(
@@ -96,9 +98,6 @@ class _VolumetricReader:
         errors = tuple(self._acting_errors(chain, parameters))
         if values.flag("use_axis_offsets"):
             self._note("AXC-NOT-MODELLED", "use_axis_offsets", "Offsets of the axes are not modelled; they are 0.")
-        if self.findings.errors() > errors_before:
-            return None
-        self._check_limits(assigned)
         return Volumetric(
             index=self.index,
             axes=tuple(assigned.items()),
@@ -203,11 +202,12 @@ class _VolumetricReader:
     def _has_type(self, number: int, letter: str) -> bool:
         return (self.axes.get(number).type is AxisType.TRANSLATORY) == (letter in LINEAR)
 
-    def _check_limits(self, assigned: dict[str, int]) -> None:
+    def check_limits(self, assigned: dict[str, int]) -> None:
         """Look for the limits that switching on will ask for."""
         for letter in LINEAR:
             for axis in self.axes.all():
-                if assigned[letter] not in (axis.number, axis.gantry_master):
+                leader = axis.number if axis.number in assigned.values() else axis.gantry_master
+                if leader != assigned[letter]:
                     continue
                 if self.axes.invent:
                     # Without axis lists a list can be tried on its own: nothing limits it then.
@@ -228,7 +228,7 @@ class _VolumetricReader:
         given = [parameters.description[name] for name in names if name in parameters.description]
         if not given:
             return None
-        length = math.sqrt(sum(x * x for x in vector))
+        length = math.hypot(*vector)
         if length == 0.0:
             self.findings.add(
                 "AXC-VECTOR",
