@@ -1,0 +1,82 @@
+"""The kernel's records as C lays them out: ctypes structures made from the dataclasses, and copies both ways."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import cache
+from typing import Annotated, Any, get_args, get_origin
+
+from ..kernel.record import Vec, fields_of
+
+_SCALARS = {float: ctypes.c_double, int: ctypes.c_int32, bool: ctypes.c_bool}
+
+
+@cache
+def ctypes_of(cls: Any) -> type[ctypes.Structure]:
+    """Return the structure of a record class: the same fields in the same order as in the translated header.
+
+    float → double, int → int32, bool → bool, ``Vec`` → pointer to double, records and arrays in place.
+    """
+    fields = [(name, _ctype(hint)) for name, hint in fields_of(cls).items()]
+    return type(cls.__name__, (ctypes.Structure,), {"_fields_": fields})
+
+
+def to_c(record: Any, struct: ctypes.Structure) -> None:
+    """Copy a record into its structure.
+
+    A ``Vec`` is copied into memory that lives as long as the structure; one that is used twice is copied once. A list
+    that is shorter than its array fills the front of it.
+    """
+    _to_c(record, struct, {})
+
+
+def from_c(struct: ctypes.Structure, record: Any) -> None:
+    """Copy a structure into its record, in place; a ``Vec`` is never written by the kernel and stays as it is."""
+    for name, hint in fields_of(type(record)).items():
+        if hint in _SCALARS:
+            setattr(record, name, getattr(struct, name))
+        elif get_origin(hint) is Annotated:
+            _list_from_c(getattr(struct, name), getattr(record, name))
+        elif hint != Vec:
+            from_c(getattr(struct, name), getattr(record, name))
+
+
+def _ctype(hint: Any) -> Any:
+    if hint in _SCALARS:
+        return _SCALARS[hint]
+    if hint == Vec:
+        return ctypes.POINTER(ctypes.c_double)
+    if get_origin(hint) is Annotated:
+        return _ctype(get_args(get_args(hint)[0])[0]) * hint.__metadata__[0]
+    return ctypes_of(hint)
+
+
+def _to_c(record: Any, struct: Any, copied: dict[int, Any]) -> None:
+    for name, hint in fields_of(type(record)).items():
+        value = getattr(record, name)
+        if hint in _SCALARS:
+            setattr(struct, name, value)
+        elif hint == Vec:
+            if id(value) not in copied:
+                copied[id(value)] = (ctypes.c_double * len(value))(*value)
+            setattr(struct, name, copied[id(value)])
+        elif get_origin(hint) is Annotated:
+            _list_to_c(value, getattr(struct, name), copied)
+        else:
+            _to_c(value, getattr(struct, name), copied)
+
+
+def _list_to_c(values: list[Any], array: Any, copied: dict[int, Any]) -> None:
+    if values and isinstance(array[0], ctypes.Structure):
+        for record, struct in zip(values, array, strict=False):
+            _to_c(record, struct, copied)
+    else:
+        array[: len(values)] = values
+
+
+def _list_from_c(array: Any, values: list[Any]) -> None:
+    if values and isinstance(array[0], ctypes.Structure):
+        for struct, record in zip(array, values, strict=False):
+            from_c(struct, record)
+    else:
+        values[:] = array[: len(values)]

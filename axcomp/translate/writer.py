@@ -1,0 +1,85 @@
+"""Lines of C: indentation, comments, and the wrapping of long lines."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+WIDTH = 120
+_STEP = "    "
+_BREAK = re.compile(r"(?<=[,;]) | (?=(&&|\|\||[-+*/?:&|]|<<|>>|<=|>=|==|!=|<|>) )")
+_BINDING = ("?", ":", "||", "&&", "==", "!=", "<", ">", "<=", ">=", "|", "&", "<<", ">>", "+", "-", "*", "/")
+"""Operators, weakest first: a line is broken at a weak one."""
+
+
+def comment(text: str) -> list[str]:
+    """Return a text as the lines of one C comment; what C would read as the end of it is taken apart."""
+    safe = text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
+    lines = [line.rstrip() for line in safe.splitlines()]
+    if len(lines) <= 1:
+        return [f"/* {safe.strip()} */"]
+    return [f"/* {lines[0]}", *(f" * {line}".rstrip() for line in lines[1:]), " */"]
+
+
+class Writer:
+    """Collects the lines of a C file.
+
+    Attributes
+    ----------
+    lines : list of str
+        What has been written.
+    depth : int
+        Blocks around the next line.
+    """
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.depth = 0
+
+    def write(self, text: str, note: str = "") -> None:
+        """Write one line of code, wrapped if it is long, with a comment behind it, or above it where it is too long."""
+        start = _STEP * self.depth
+        behind = f"  {comment(note)[0]}" if note else ""
+        if note and ("\n" in note or len(start + text + behind) > WIDTH):
+            self.remark(note)
+            behind = ""
+        *lines, last = wrap(start + text, len(start))
+        self.lines += [*lines, last + behind]
+
+    def remark(self, text: str) -> None:
+        """Write a comment on lines of its own."""
+        self.lines += [f"{_STEP * self.depth}{line}" for line in comment(text)]
+
+    def blank(self) -> None:
+        """Write an empty line, but no second one and none at the beginning."""
+        if self.lines and self.lines[-1]:
+            self.lines.append("")
+
+    def extend(self, lines: Sequence[str]) -> None:
+        """Write lines as they are."""
+        self.lines += lines
+
+    def text(self) -> str:
+        """Return the file."""
+        return "\n".join(self.lines).rstrip() + "\n"
+
+
+def wrap(line: str, indent: int) -> list[str]:
+    """Break a long line where its parentheses are shallowest and its operators weakest; the rest is indented twice."""
+    start = indent + 2 * len(_STEP)
+    lines = []
+    while len(line) > WIDTH:
+        places = [match for match in _BREAK.finditer(line) if start < match.start() <= WIDTH]
+        if not places:
+            break
+        best = min(places, key=lambda match: _cost(line, match)).start()
+        lines.append(line[:best])
+        line = " " * start + line[best + 1 :]
+    return [*lines, line]
+
+
+def _cost(line: str, match: re.Match[str]) -> tuple[int, int, int]:
+    """Return how bad it is to break a line here: in parentheses, at a strong operator, early."""
+    place, operator = match.start(), match.group(1)
+    depth = line.count("(", 0, place) - line.count(")", 0, place)
+    return depth, _BINDING.index(operator) if operator else -1, -place
