@@ -108,7 +108,8 @@ def test_outputs_belong_to_the_start_values_during_and_after_initialization(reso
 
 def test_the_cycle_time_is_a_parameter(resources: Path) -> None:
     driver, engine = Driver(resources), Engine(three_axes(), 0.004)
-    driver.begin(cycle_time=0.004)
+    driver.begin(**{"X.actual_position": 5.0, "cycle_time": 0.004})
+    assert driver.get("X.actual_position") == 5.0
     expected = [engine.step(row) for row in trajectory(20)]
     assert [driver.step(row, 0.004) for row in trajectory(20)] == expected
 
@@ -198,12 +199,12 @@ class _Foreign:
 
 
 def test_what_is_no_state_changes_nothing(driver: Driver, capsys: pytest.CaptureFixture[str]) -> None:
-    driver.step(trajectory(1)[0])
+    driver.step({**trajectory(1)[0], "update_path": "somewhere"})
     saved = driver.instance.save()
     foreign = pickle.dumps(_Foreign())
-    flipped = bytearray(saved)
-    flipped[len(saved) // 2] ^= 1
-    bad = [b"", saved[:-1], saved[:10], bytes(flipped), MAGIC + zlib.crc32(foreign).to_bytes(4, "little") + foreign]
+    flipped = saved.replace(b"somewhere", b"elsewhere")
+    assert flipped != saved
+    bad = [b"", saved[:-1], saved[:10], flipped, MAGIC + zlib.crc32(foreign).to_bytes(4, "little") + foreign]
     for data in bad:
         driver.instance.restore(data)
         assert driver.get("X.error") == 903
