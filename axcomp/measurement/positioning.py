@@ -6,8 +6,9 @@ Deviations are *actual − target* in thousandths of the axis' unit: µm, or 0.0
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
+from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -47,6 +48,8 @@ class Positioning:
         Its name, "" if the file does not say.
     source : str
         The file or files.
+    deviating_unit : str
+        Where another axis than the one at the targets deviates, what that one counts in; else "".
     details : mapping of str to str
         What else the file says about the measurement.
     """
@@ -59,11 +62,12 @@ class Positioning:
     axis: str = ""
     source: str = ""
     details: Mapping[str, str] = field(default_factory=dict)
+    deviating_unit: str = ""
 
     @property
     def deviation_unit(self) -> str:
         """Unit of the deviations and of everything computed from them."""
-        return "µm" if self.unit == "mm" else "0.001°"
+        return thousandth(self.deviating_unit or self.unit)
 
     def grid(self) -> tuple[Array, npt.NDArray[np.int64], Array]:
         """Return targets (m,), runs (k,) and deviations (2, m, k): first positive direction, NaN where nothing is."""
@@ -80,20 +84,29 @@ class Positioning:
     def with_deviations(self, deviations: Array, chosen: npt.NDArray[np.bool_] | None = None) -> Positioning:
         """Return the measurement with other deviations, (n,)."""
         keep = np.ones(len(self.targets), dtype=bool) if chosen is None else chosen
-        return Positioning(
-            self.targets[keep],
-            self.runs[keep],
-            self.directions[keep],
-            deviations[keep],
-            self.unit,
-            self.axis,
-            self.source,
-            self.details,
+        return replace(
+            self,
+            targets=self.targets[keep],
+            runs=self.runs[keep],
+            directions=self.directions[keep],
+            deviations=deviations[keep],
         )
 
 
-def read_positioning(path: str | Path) -> Positioning:
+def thousandth(unit: str) -> str:
+    """Return the unit that deviations of an axis have which counts in ``mm`` or ``deg``."""
+    return "µm" if unit == "mm" else "0.001°"
+
+
+def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Positioning:
     """Read a measurement: Renishaw ``.rtl``, else a table with ``target, run, direction, deviation``.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    of_another_axis : bool
+        Not the axis at the targets deviates but one that follows it; targets may then be angles and deviations lengths.
 
     Raises
     ------
@@ -112,11 +125,28 @@ def read_positioning(path: str | Path) -> Positioning:
             source=str(path),
             details=linear.details,
         )
-    return _from_columns(read_columns(path, COLUMNS))
+    return _from_columns(read_columns(path, COLUMNS), of_another_axis)
 
 
-def joined(measurements: Sequence[Positioning]) -> Positioning:
-    """Return several measurements of one axis as one; the runs of later ones are counted on.
+class InRuns(Protocol):
+    """A measurement: a dataclass of arrays with one element a reading, and of what these have in common."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def runs(self) -> npt.NDArray[np.int64]:
+        """Run of each reading."""
+
+    @property
+    def source(self) -> str:
+        """The file or files."""
+
+
+Measurement = TypeVar("Measurement", bound=InRuns)
+
+
+def joined(measurements: Sequence[Measurement]) -> Measurement:
+    """Return several measurements of the same as one; the runs of later ones are counted on.
 
     Raises
     ------
@@ -124,26 +154,18 @@ def joined(measurements: Sequence[Positioning]) -> Positioning:
         They are not of the same unit.
     """
     first = measurements[0]
-    runs, last = [], 0
-    for measurement in measurements:
-        if measurement.unit != first.unit:
-            raise MeasurementError(
-                measurement.source,
-                0,
-                f"Its targets are in {measurement.unit}, those of {first.source} in {first.unit}.",
-            )
-        runs.append(measurement.runs + last)
-        last += int(measurement.runs.max())
-    return Positioning(
-        np.concatenate([m.targets for m in measurements]),
-        np.concatenate(runs),
-        np.concatenate([m.directions for m in measurements]),
-        np.concatenate([m.deviations for m in measurements]),
-        first.unit,
-        first.axis,
-        ", ".join(dict.fromkeys(m.source for m in measurements)),
-        first.details,
-    )
+    names = [item.name for item in fields(first)]
+    for other in measurements[1:]:
+        for name in names:
+            if name.endswith("unit") and getattr(other, name) != getattr(first, name):
+                sentence = f"It is in {getattr(other, name)}, {first.source} in {getattr(first, name)}."
+                raise MeasurementError(other.source, 0, sentence)
+    arrays = [name for name in names if isinstance(getattr(first, name), np.ndarray)]
+    stacked: dict[str, Any] = {name: np.concatenate([getattr(m, name) for m in measurements]) for name in arrays}
+    passed = np.cumsum([0, *(m.runs.max() for m in measurements[:-1])])
+    stacked["runs"] = np.concatenate([m.runs + n for m, n in zip(measurements, passed, strict=True)])
+    stacked["source"] = ", ".join(dict.fromkeys(m.source for m in measurements))
+    return replace(first, **stacked)
 
 
 def whole_runs(columns: Columns) -> npt.NDArray[np.int64]:
@@ -155,6 +177,11 @@ def whole_runs(columns: Columns) -> npt.NDArray[np.int64]:
     return runs.astype(np.int64)
 
 
+def unit_of(rotary: bool) -> str:
+    """Return what a rotary or a translatory axis counts in."""
+    return "deg" if rotary else "mm"
+
+
 def angular(columns: Columns, *names: str) -> bool:
     """Tell whether columns are angles; MeasurementError if some are lengths and some angles."""
     kinds = {name: columns.units[name] in ANGLES for name in names if name in columns.units}
@@ -164,9 +191,9 @@ def angular(columns: Columns, *names: str) -> bool:
     return any(kinds.values())
 
 
-def _from_columns(columns: Columns) -> Positioning:
+def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
     runs = whole_runs(columns)
-    rotary = angular(columns, "target", "deviation")
+    rotary = angular(columns, "target", *(() if of_another_axis else ("deviation",)))
     targets = columns.values["target"] * 1e-3
     directions = columns.values["direction"].astype(np.int64)
     seen: dict[tuple[float, int, int], int] = {}
@@ -181,8 +208,9 @@ def _from_columns(columns: Columns) -> Positioning:
         runs,
         directions,
         columns.values["deviation"],
-        "deg" if rotary else "mm",
+        unit_of(rotary),
         columns.details.get("axis", ""),
         columns.file,
         columns.details,
+        unit_of(angular(columns, "deviation")) if of_another_axis else "",
     )

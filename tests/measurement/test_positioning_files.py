@@ -187,5 +187,5 @@ def test_runs_of_joined_files_are_counted_on(file):
     first = read_positioning(file("0,1,+,1\n0,2,+,2\n", "a.csv"))
     second = read_positioning(file("0,1,+,3\n", "b.csv"))
     assert joined([first, second]).runs.tolist() == [1, 2, 3]
-    with pytest.raises(MeasurementError, match=r"c.csv: Its targets are in deg"):
+    with pytest.raises(MeasurementError, match=r"c.csv: It is in deg, .*a.csv in mm."):
         joined([first, read_positioning(file("target [deg],run,direction,deviation [mdeg]\n0,1,+,3\n", "c.csv"))])
