@@ -96,6 +96,15 @@ def test_thinning_never_exceeds_its_bound(tmp_path_factory, deviations, steps, b
         assert off.max() <= creation.deviation + 1e-9
 
 
+def test_the_bound_holds_for_rounded_values_too(tmp_path):
+    """Ends of 0.04 µm become 0: the point between, 0.96 µm off before, is 1 µm off then."""
+    measurement = measured(np.array([0.0, 1.0, 2.0]), {1: np.array([0.04, 1.0, 0.04])})
+    for bound, points in ((0.96, 3), (1.02, 2)):
+        creation = create_leadscrew(measurement, TargetList(tmp_path / "new.lis", 1), Options(bound=bound))
+        assert creation.points == points
+        assert creation.deviation <= bound
+
+
 def test_a_bound_that_takes_too_many_points_is_refused_with_what_is_possible(lists):
     measurement = positioning_of("X", TARGETS)
     with pytest.raises(CannotCreateError, match=r"0.1 µm take \d+ points, but the list has room for 10, which keep"):
