@@ -158,6 +158,9 @@ class Program:
                     self.report.add(module.file, refused)
                     for name in _bound_by(node):
                         self.names[module.name].setdefault(name, BROKEN)
+        for definition in self.definitions:
+            if isinstance(definition, Record):
+                self._check_fields(definition)
 
     def function_named(self, module: Module, name: str) -> Function | None:
         """Return the function that ``name`` means in a module, None if it means something else."""
@@ -232,7 +235,7 @@ class Program:
                 self.names[module.name][name] = Alias(name, self._array(module, value), module)
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 self._constant(module, node, name, value)
-            case ast.AnnAssign(target=ast.Name(id=name), annotation=ast.Name(id="Final"), value=value) if value:
+            case ast.AnnAssign(target=ast.Name(id=name), value=value) if value and _is_final(node.annotation):
                 self._constant(module, node, name, value)
             case ast.ClassDef():
                 self._record(module, node)
@@ -326,6 +329,13 @@ class Program:
             raise RefusedError(node, f"{node.name} has no fields: C has no empty struct")
         self._define(record)
 
+    def _check_fields(self, record: Record) -> None:
+        """Refuse fields that are called like a constant: C would put the number in their place."""
+        for item in record.node.body:
+            match item:
+                case ast.AnnAssign(target=ast.Name(id=name)) if isinstance(self.defined_as(name), Constant):
+                    self.report.add(record.module.file, RefusedError(item, f"{name} is also the name of a constant"))
+
     def _function(self, module: Module, node: ast.FunctionDef) -> None:
         arguments = node.args
         if node.decorator_list:
@@ -344,6 +354,11 @@ class Program:
         exported = node.name in self.exports
         name_in_c = f"{self.prefix}{node.name}" if exported else c_name(node.name)
         self._define(Function(node.name, name_in_c, exported, parameters, returns, module, node))
+
+
+def _is_final(annotation: ast.expr) -> bool:
+    outer = annotation.value if isinstance(annotation, ast.Subscript) else annotation
+    return isinstance(outer, ast.Name) and outer.id == "Final"
 
 
 def _bound_by(node: ast.stmt) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
+from typing import TypeGuard
 
 from .effects import Effects, root
 from .expressions import SHIFT, Expressions, Text, operator_of
@@ -242,6 +243,9 @@ class Body:
             raise RefusedError(
                 node, f"zeros(n) stands where {name} is first named, and makes the same length everywhere"
             )
+        stores = [part.value for part in ast.walk(self._function.node) if _is_store_of_element(part)]
+        if all(part in stores for part in names_in(self._function.node, ast.Load) if part.id == name):
+            raise RefusedError(node, f"{name} is never read")
         self._kinds[name] = kind
         self._arrays.add(name)
         self.writer.write(f"double {name}[{text}] = {{0}};", note)
@@ -350,3 +354,7 @@ class Body:
             case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
                 return self._is_fixed(left, loop) and self._is_fixed(right, loop)
         return False
+
+
+def _is_store_of_element(node: ast.AST) -> TypeGuard[ast.Subscript]:
+    return isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)

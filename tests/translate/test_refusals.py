@@ -143,9 +143,10 @@ BODIES = [
     ("return x\nx = 1.0", 2, "never reached"),
     ("y = x", 1, "y is never read"),
     ("t = zeros(n)\nt[0] = x", 1, "no length"),
-    ("t = zeros(4)\nt[0] = x\nt = zeros(4)", 3, "first named"),
+    ("t = zeros(4)\nt[n] = x", 1, "t is never read"),
+    ("t = zeros(4)\nx = t[0]\nt = zeros(4)", 3, "first named"),
     ("x = zeros(4)[0]", 1, "stands alone"),
-    ("line = zeros(4)\nline[0] = x\nline = a.part.line", 3, "an array of its own"),
+    ("line = zeros(4)\nx = line[0]\nline = a.part.line", 3, "an array of its own"),
     ("int_min = x\nx = int_min", 1, "already means something in C"),
     ("register = x\nx = register", 1, "already means something in C"),
     ("_Value = x\nx = _Value", 1, "reserved"),
@@ -210,6 +211,7 @@ MODULE_LEVEL = [
     ("@dataclass(slots=True)\nclass A:\n    x: None", 3, "holds nothing"),
     ("@dataclass(slots=True)\nclass A:\n    switch: float", 3, "already means something in C"),
     ('@dataclass(slots=True)\nclass A:\n    """Empty."""', 2, "no fields"),
+    ("@dataclass(slots=True)\nclass A:\n    SIZE: float\nSIZE: Final[int] = 3", 3, "also the name of a constant"),
 ]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -20,6 +22,24 @@ def test_the_committed_c_is_what_the_kernel_translates_to() -> None:
     translation = translate(KERNEL, EXPORTS)
     assert (NATIVE / "kernel.h").read_text("utf-8") == translation.header, "run python -m axcomp.translate"
     assert (NATIVE / "kernel.c").read_text("utf-8") == translation.source, "run python -m axcomp.translate"
+
+
+COMPILERS = {
+    "C99": ["gcc", "-std=c99"],
+    "C++": ["g++", "-std=c++11", "-x", "c++"],
+    "clang": ["clang", "-std=c99"],
+}
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_the_committed_c_compiles_without_a_warning(compiler: str, tmp_path: Path) -> None:
+    command = COMPILERS[compiler]
+    if not shutil.which(command[0]):
+        pytest.skip(f"there is no {command[0]} on this machine")
+    warnings = ["-Wall", "-Wextra", "-pedantic", "-Wvla", "-Werror"]
+    output = ["-O2", "-c", str(NATIVE / "kernel.c"), "-o", str(tmp_path / "kernel.o")]
+    run = subprocess.run([*command, *warnings, *output], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
 
 
 def test_the_command_writes_both_files_and_checks_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
