@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from pathlib import Path
 from typing import Any
@@ -15,16 +16,31 @@ LARGEST = 1e12
 """Inputs beyond are not used, as if they were infinite."""
 
 
+NOTHING = {"sub_step": 1.0, "axes": []}
+"""Description of the plant that stands in for one that cannot be read."""
+
+
 class PlantSlave(Fmi2Slave):
-    """Feeds inputs to the plant and keeps its outputs; inputs that are not finite keep their last good value."""
+    """Feeds inputs to the plant and keeps its outputs; inputs that are not finite keep their last good value.
+
+    Where the plant cannot be read, which the log says once, every variable is 0 and stays so.
+    """
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.plant = Plant.from_file(Path(self.resources) / FILE_NAME)
-        self.axes = range(len(self.plant.names))
-        self.values = [0.0] * (v.BLOCK * len(self.axes))
-        self.setpoints = [0.0] * len(self.axes)
-        self.currents = [0.0] * len(self.axes)
+        self.plant = Plant(NOTHING)
+        self._guard(self._read)
+        count = len(self.plant.names)
+        self.axes = range(count)
+        self.of_machine = v.BLOCK * count
+        self.values = [0.0] * (self.of_machine + (len(v.OF_MACHINE) if self.plant.bodies else 0))
+        self.setpoints = [0.0] * count
+        self.currents = [0.0] * count
+        self.commanded = [0.0] * count
+        self.tool_length = 0.0
+
+    def _read(self) -> None:
+        self.plant = Plant.from_file(Path(self.resources or "") / FILE_NAME)
 
     def exit_initialization_mode(self) -> None:
         """Stand still at the setpoints."""
@@ -42,7 +58,7 @@ class PlantSlave(Fmi2Slave):
         try:
             return [values[vr] for vr in vrs]
         except IndexError:
-            self._tell(f"no variables have the value references {self._unknown(vrs)}")
+            self._tell_unknown(vrs)
             return [values[vr] if vr < len(values) else 0.0 for vr in vrs]
 
     def set_real(self, vrs: list[int], values: list[float]) -> None:
@@ -52,7 +68,7 @@ class PlantSlave(Fmi2Slave):
             for vr, value in zip(vrs, values, strict=True):
                 own[vr] = value
         except IndexError:
-            self._tell(f"no variables have the value references {self._unknown(vrs)}")
+            self._tell_unknown(vrs)
 
     def _get_fmu_state(self) -> dict[str, Any]:
         return {
@@ -60,6 +76,8 @@ class PlantSlave(Fmi2Slave):
             "values": list(self.values),
             "setpoints": list(self.setpoints),
             "currents": list(self.currents),
+            "commanded": list(self.commanded),
+            "tool_length": self.tool_length,
         }
 
     def _set_fmu_state(self, state: dict[str, Any]) -> None:
@@ -72,6 +90,8 @@ class PlantSlave(Fmi2Slave):
         self.values = list(state["values"])
         self.setpoints = list(state["setpoints"])
         self.currents = list(state["currents"])
+        self.commanded = list(state["commanded"])
+        self.tool_length = state["tool_length"]
 
     def _begin(self) -> None:
         self._take_inputs()
@@ -91,6 +111,13 @@ class PlantSlave(Fmi2Slave):
                 self.setpoints[axis] = setpoint
             if -LARGEST < current < LARGEST:
                 self.currents[axis] = current
+            commanded = self.values[v.BLOCK * axis + v.COMMANDED_POSITION]
+            if -LARGEST < commanded < LARGEST:
+                self.commanded[axis] = commanded
+        if self.plant.bodies:
+            tool_length = self.values[self.of_machine + v.TOOL_LENGTH]
+            if -LARGEST < tool_length < LARGEST:
+                self.tool_length = tool_length
 
     def _give_outputs(self) -> None:
         values, true = self.values, self.plant.true
@@ -101,6 +128,11 @@ class PlantSlave(Fmi2Slave):
             values[at + v.VELOCITY] = drive.velocity
             values[at + v.MOTOR_CURRENT] = drive.current
             values[at + v.FOLLOWING_ERROR] = drive.lag
+        bodies = self.plant.bodies
+        if bodies:
+            tip, at = bodies.tip(self.tool_length), self.of_machine
+            values[at + v.TCP : at + v.TCP + 3] = bodies.place(tip, true)
+            values[at + v.NOMINAL_TCP : at + v.NOMINAL_TCP + 3] = bodies.nominal_place(tip, self.commanded)
 
     def _guard(self, work: Any, *arguments: Any) -> None:
         """Do something; what goes wrong is reported and the outputs stay: a second exception would end the host."""
@@ -109,10 +141,13 @@ class PlantSlave(Fmi2Slave):
         except Exception as error:
             self._tell(f"{type(error).__name__}: {error}")
 
-    def _unknown(self, vrs: list[int]) -> list[int]:
-        return [vr for vr in vrs if vr >= len(self.values)]
+    def _tell_unknown(self, vrs: list[int]) -> None:
+        if self.plant.names:
+            unknown = [vr for vr in vrs if vr >= len(self.values)]
+            self._tell(f"no variables have the value references {unknown}")
 
     def _tell(self, message: str) -> None:
         """Report an error; a C host would take a % for the beginning of a format."""
         self.log(message.replace("%", "percent"), Fmi2Status.error)
-        print(f"{self.instance_name}: {message}", file=sys.stderr)
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            sys.stderr.write(f"{self.instance_name}: {message}\n")

@@ -26,10 +26,11 @@ def read_plant(folder: Path) -> tuple[tuple[Variable, ...], Path]:
         raise BuildError(str(error)) from None
     declared: Any = importlib.import_module("plant_model.variables")
     file_name: str = importlib.import_module("plant_model.machine").FILE_NAME
-    variables = tuple(
+    present = [d for d in declared.OF_AXIS if not d.of_bodies or plant.bodies]
+    variables = [
         Variable(
             f"{identifier(name)}.{declaration.name}",
-            declared.BLOCK * index + place,
+            declared.BLOCK * index + declared.OF_AXIS.index(declaration),
             declaration.causality,
             0.0,
             declaration.description,
@@ -38,6 +39,12 @@ def read_plant(folder: Path) -> tuple[tuple[Variable, ...], Path]:
             axis=index,
         )
         for index, (name, unit) in enumerate(zip(plant.names, plant.units, strict=True))
-        for place, declaration in enumerate(declared.OF_AXIS)
-    )
-    return variables, folder / file_name
+        for declaration in present
+    ]
+    if plant.bodies:
+        first = declared.BLOCK * len(plant.names)
+        variables += [
+            Variable(d.name, first + place, d.causality, 0.0, d.description, d.unit, depends_on=None)
+            for place, d in enumerate(declared.OF_MACHINE)
+        ]
+    return tuple(variables), folder / file_name

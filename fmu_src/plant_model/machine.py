@@ -1,4 +1,4 @@
-"""The plant: all drives and the geometric errors between encoders and tool."""
+"""The plant: all drives, the geometric errors of each axis, and the rigid bodies between workpiece and tool."""
 
 from __future__ import annotations
 
@@ -10,8 +10,14 @@ from typing import Any
 
 from .drive import STATE, Drive
 from .geometry import AxisErrors, Motion
+from .poses import Vector
+from .rigid_bodies import RigidBodies
 
 FILE_NAME = "plant.json"
+
+
+WRONG = (AttributeError, KeyError, TypeError, ValueError, OverflowError, ZeroDivisionError)
+"""What using a wrong description raises."""
 
 
 class PlantError(ValueError):
@@ -24,7 +30,8 @@ class Plant:
     Parameters
     ----------
     description : Mapping
-        ``sub_step`` in s and ``axes``, one for each, as in ``models/*/plant.json``.
+        ``sub_step`` in s and ``axes``, one for each, as in ``models/*/plant.json``; ``rigid_bodies`` (see there) for a
+        machine whose tool tip is of interest.
 
     Attributes
     ----------
@@ -34,11 +41,14 @@ class Plant:
         ``mm`` or ``deg``.
     modulo : tuple of float
         Range of a modulo axis in °, 0.0 for the others.
+    bodies : RigidBodies or None
     """
 
     def __init__(self, description: Mapping[str, Any]) -> None:
         axes = description["axes"]
         self.sub_step = float(description["sub_step"])
+        if not self.sub_step > 0.0:
+            raise PlantError(f"sub_step is a time in s, not {self.sub_step:g}")
         self.names = tuple(str(axis["name"]) for axis in axes)
         self.drives: list[Drive] = []
         self.errors: list[AxisErrors] = []
@@ -49,11 +59,16 @@ class Plant:
             try:
                 self.drives.append(Drive(axis, rotary, float(axis.get("modulo", 0.0))))
                 self.errors.append(AxisErrors(axis["errors"], index, self.names))
-            except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
-                what = f"{error} is missing" if isinstance(error, KeyError) else f"{type(error).__name__}: {error}"
-                raise PlantError(f"axis {axis['name']}: {what}") from error
+            except WRONG as error:
+                raise PlantError(f"axis {axis['name']}: {_what(error)}") from error
         self.units = tuple(units)
         self.modulo = tuple(drive.modulo for drive in self.drives)
+        self.bodies: RigidBodies | None = None
+        if "rigid_bodies" in description:
+            try:
+                self.bodies = RigidBodies(description["rigid_bodies"], self.names, [unit == "deg" for unit in units])
+            except WRONG as error:
+                raise PlantError(f"rigid_bodies: {_what(error)}") from error
         self.motion = Motion(len(axes))
         self.rest_at([0.0] * len(axes))
 
@@ -61,12 +76,13 @@ class Plant:
     def from_file(cls, path: Path) -> Plant:
         """Read ``plant.json``; PlantError says what is wrong with it."""
         try:
-            return cls(json.loads(path.read_text(encoding="utf-8")))
+            return cls(json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse))
         except OSError as error:
             raise PlantError(f"{path}: {error.strerror or error}") from error
-        except (KeyError, TypeError, ValueError) as error:
-            what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
-            raise PlantError(f"{path}: {what}") from error
+        except PlantError as error:
+            raise PlantError(f"{path}: {error}") from error
+        except (*WRONG, RecursionError) as error:
+            raise PlantError(f"{path}: {_what(error)}") from error
 
     @property
     def measured(self) -> list[float]:
@@ -78,6 +94,18 @@ class Plant:
         """Positions of the tool: what the encoders see and the geometric errors."""
         motion = self.motion
         return [position + errors.error(motion) for position, errors in zip(motion.positions, self.errors, strict=True)]
+
+    def place(self, point: Vector) -> Vector:
+        """Return where a point that moves with the tool is, seen from the workpiece, mm (see ``RigidBodies.place``).
+
+        Raises
+        ------
+        PlantError
+            If the plant has no rigid bodies.
+        """
+        if self.bodies is None:
+            raise PlantError("the plant has no rigid bodies")
+        return self.bodies.place(point, self.true)
 
     @property
     def currents(self) -> list[float]:
@@ -124,3 +152,11 @@ class Plant:
                 setattr(drive, name, value)
         self.motion.approach = list(values[len(self.drives) * len(STATE) :])
         self._see()
+
+
+def _what(error: Exception) -> str:
+    return f"{error} is missing" if isinstance(error, KeyError) else f"{type(error).__name__}: {error}"
+
+
+def _refuse(constant: str) -> None:
+    raise ValueError(f"{constant} is no number")
