@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from operator import attrgetter
@@ -17,6 +18,8 @@ from .fmu.variable import Value, Variable, with_causality
 from .fmu.variables import Naming, by_name, record_of, variables_of
 from .lists import Finding, read_machine
 from .machine import Machine
+from .native.library import compiled_kernel
+from .native.runner import run_compiled
 from .runtime import Runtime
 
 if TYPE_CHECKING:
@@ -127,6 +130,8 @@ class Engine:
     def run(self, trajectory: Mapping[str, ArrayLike]) -> Result:
         """Run one cycle for each row of a trajectory: the same bits as as many calls of ``step``.
 
+        The compiled kernel does it where there is one (see ``native.library``), else Python.
+
         Parameters
         ----------
         trajectory : mapping of str to array_like, shape (n,)
@@ -142,12 +147,25 @@ class Engine:
         inputs = {name: column for name, column in trajectory.items() if name != "time"}
         cycles = _length(inputs)
         given = [self._input(name) for name in inputs]
-        setters = [(self._record(variable), variable.field) for variable in given]
         columns = [_column(variable, inputs[variable.name]) for variable in given]
-        groups = self._output_groups()
-        values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
         instants = np.arange(self.runtime.cycles, self.runtime.cycles + cycles, dtype=np.float64)
         time = self.runtime.start_time + self.runtime.tables.cycle_time * instants
+        kernel = compiled_kernel()
+        values = self._run_in_python(given, columns) if kernel is None else self._run_compiled(kernel, given, columns)
+        return Result(time, values, tuple(self.runtime.notices()))
+
+    def _run_compiled(
+        self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
+    ) -> dict[str, NDArray[Any]]:
+        rows = np.column_stack([column.astype(np.float64) for column in columns])
+        results = run_compiled(kernel, self.runtime, given, np.ascontiguousarray(rows), self._outputs)
+        return {v.name: results[:, k].astype(type(v.start)) for k, v in enumerate(self._outputs)}
+
+    def _run_in_python(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        cycles = len(columns[0])
+        setters = [(self._record(variable), variable.field) for variable in given]
+        groups = self._output_groups()
+        values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
         run_cycle = self.runtime.cycle
         for first in range(0, cycles, CHUNK):
             last = min(first + CHUNK, cycles)
@@ -161,7 +179,7 @@ class Engine:
             for group, kept in zip(groups, rows, strict=True):
                 for variable, column in zip(group.variables, zip(*kept, strict=True), strict=True):
                     values[variable.name][first:last] = column
-        return Result(time, values, tuple(self.runtime.notices()))
+        return values
 
     def _record(self, variable: Variable) -> Any:
         return record_of(variable, variable.axis, self.runtime.inputs, self.runtime.outputs)

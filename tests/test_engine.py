@@ -8,6 +8,16 @@ import pytest
 
 from axcomp import Engine, Machine
 from axcomp.machine import Axis, Cross, Friction, Leadscrew
+from axcomp.native.library import compiled_kernel
+
+
+@pytest.fixture(params=["compiled", "python"], autouse=True)
+def kernel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run every test with the compiled kernel and without."""
+    if request.param == "python":
+        monkeypatch.setattr("axcomp.engine.compiled_kernel", lambda: None)
+    elif compiled_kernel() is None:
+        pytest.skip("there is no C compiler on this machine")
 
 
 def machine() -> Machine:

@@ -11,12 +11,16 @@ from ..kernel.record import Vec, fields_of
 _SCALARS = {float: ctypes.c_double, int: ctypes.c_int32, bool: ctypes.c_bool}
 
 
-@cache
 def ctypes_of(cls: Any) -> type[ctypes.Structure]:
     """Return the structure of a record class: the same fields in the same order as in the translated header.
 
     float → double, int → int32, bool → bool, ``Vec`` → pointer to double, records and arrays in place.
     """
+    return _structure_of(cls)
+
+
+@cache
+def _structure_of(cls: Any) -> type[ctypes.Structure]:
     fields = [(name, _ctype(hint)) for name, hint in fields_of(cls).items()]
     return type(cls.__name__, (ctypes.Structure,), {"_fields_": fields})
 

@@ -1,0 +1,82 @@
+"""C compilers: the machine's own for itself, the one of the package ziglang for every platform."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-g0", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
+"""No fast-math and no fused multiplications: every compiler then gives the same bits."""
+
+
+class Platform(NamedTuple):
+    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machine."""
+
+    suffix: str
+    zig_target: str
+
+
+PLATFORMS = {
+    "linux64": Platform(".so", "x86_64-linux-gnu.2.17"),
+    "win64": Platform(".dll", "x86_64-windows-gnu"),
+    "darwin64": Platform(".dylib", "x86_64-macos.11.0"),
+}
+"""Those that FMUs are built for; the Linux libraries need glibc 2.17 or newer."""
+
+
+class CompilerError(RuntimeError):
+    """There is no compiler for a platform, or it has failed; the message says what to do."""
+
+
+def own_platform() -> str:
+    """Return the FMI name of the platform this Python runs on."""
+    return {"win32": "win64", "darwin": "darwin64"}.get(sys.platform, "linux64")
+
+
+def compiler_of(platform: str) -> list[str]:
+    """Return the command of a C compiler for a platform.
+
+    Raises
+    ------
+    CompilerError
+        If there is none: the machine's own compiler (``CC``, cc, gcc or clang) serves only the machine itself.
+    """
+    if importlib.util.find_spec("ziglang") is not None:
+        return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[platform].zig_target]
+    if platform == own_platform():
+        if os.environ.get("CC"):
+            return shlex.split(os.environ["CC"])
+        for name in ("cc", "gcc", "clang"):
+            if shutil.which(name):
+                return [name]
+        raise CompilerError("there is no C compiler: install gcc or clang, or pip install axcomp[cross]")
+    raise CompilerError(f"for {platform} on {own_platform()} a cross compiler is needed: pip install axcomp[cross]")
+
+
+def compile_library(
+    sources: Sequence[Path], output: Path, *, compiler: Sequence[str], platform: str, flags: Sequence[str] = ()
+) -> None:
+    """Compile C sources into a shared library.
+
+    Raises
+    ------
+    CompilerError
+        With the compiler's own words, if it fails or complains.
+    """
+    linking = ["-shared", *([] if platform == "win64" else ["-fPIC", "-lm"])]
+    if platform == "linux64":
+        linking += ["-Wl,-s", "-Wl,--build-id=none"]
+    command = [*compiler, *FLAGS, *flags, "-Werror", *map(str, sources), "-o", str(output), *linking]
+    try:
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise CompilerError(f"the C compiler {compiler[0]} cannot be run: {error}") from None
+    if result.returncode != 0:
+        raise CompilerError(f"the C compiler {compiler[0]} has failed:\n{result.stderr.strip()}")

@@ -1,0 +1,40 @@
+/* Whole trajectories: columns go into the inputs, the outputs into columns. */
+#include "run.h"
+
+#include <stdbool.h>
+
+static void set_field(Inputs *inputs, Field field, double value)
+{
+    char *at = (char *)inputs + field.offset;
+    if (field.type == 'r') {
+        *(double *)at = value;
+    } else if (field.type == 'b') {
+        *(bool *)at = value != 0.0;
+    } else {
+        *(int32_t *)at = (int32_t)value;
+    }
+}
+
+static double field_of(const Outputs *outputs, Field field)
+{
+    const char *at = (const char *)outputs + field.offset;
+    if (field.type == 'r') {
+        return *(const double *)at;
+    }
+    return field.type == 'b' ? (double)*(const bool *)at : (double)*(const int32_t *)at;
+}
+
+void axcomp_run(const Tables *tables, State *state, Inputs *inputs, Outputs *outputs, int64_t rows,
+                const Field *given_fields, int32_t given_count, const double *given, const Field *result_fields,
+                int32_t result_count, double *results)
+{
+    for (int64_t row = 0; row < rows; row++) {
+        for (int32_t k = 0; k < given_count; k++) {
+            set_field(inputs, given_fields[k], *given++);
+        }
+        axcomp_cycle(tables, state, inputs, outputs);
+        for (int32_t k = 0; k < result_count; k++) {
+            *results++ = field_of(outputs, result_fields[k]);
+        }
+    }
+}

@@ -1,0 +1,26 @@
+/* Whole trajectories for the Engine: many cycles in one call. */
+#ifndef AXCOMP_RUN_H
+#define AXCOMP_RUN_H
+
+#include "kernel.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A field of Inputs or Outputs: its offset in bytes, and 'r' double, 'i' int32_t or 'b' bool. */
+typedef struct {
+    int32_t offset;
+    char type;
+} Field;
+
+/* Run one cycle for each row of `given` (rows × given_fields) and put the outputs into `results` (rows × result_fields). */
+AXCOMP_API void axcomp_run(const Tables *tables, State *state, Inputs *inputs, Outputs *outputs, int64_t rows,
+                           const Field *given_fields, int32_t given_count, const double *given,
+                           const Field *result_fields, int32_t result_count, double *results);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
