@@ -8,6 +8,7 @@ import random
 import shutil
 import struct
 import subprocess
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,10 @@ from axcomp.compile import compile_tables
 from axcomp.kernel.cycle import cycle
 from axcomp.kernel.record import fields_of, zero
 from axcomp.kernel.records import AxisInputs, Inputs, Outputs, State, Tables
-from axcomp.machine import Machine
+from axcomp.machine import Axis, AxisType, Machine
 from axcomp.native.layout import ctypes_of, from_c, to_c
 from axcomp.runtime import initial_inputs
+from axcomp.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation, Volumetric
 
 SOURCES = Path(__file__).parents[2] / "fmu_src" / "native"
 
@@ -58,34 +60,91 @@ def move(given: AxisInputs, source: random.Random) -> None:
     else:
         given.velocity = given.acceleration = 0.0
     for name, hint in fields_of(AxisInputs).items():
-        if hint is bool and source.random() < 0.05:
+        if name in ("referenced", "fault"):
+            setattr(given, name, (name == "referenced") != (source.random() < 0.003))
+        elif hint is bool and source.random() < 0.05:
             setattr(given, name, not getattr(given, name))
-    if source.random() < 0.01:
+    if source.random() < 0.002:
         given.acceleration = source.choice([float("nan"), float("inf"), 1e300])
 
 
-def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> None:
-    """Run both kernels over the same inputs and compare the outputs of every cycle and the states at the end."""
+def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[float]:
+    """Run both kernels over the same inputs; compare the outputs of every cycle and the states at the end.
+
+    Returns all the corrections.
+    """
     tables, state, outputs = compile_tables(machine), zero(State), zero(Outputs)
     inputs = initial_inputs(tables)
+    for record in (state, outputs):
+        del record.axis[tables.axis_count :], record.volumetric[tables.volumetrics :]
     records: list[tuple[Any, Any]] = [(tables, Tables), (state, State), (inputs, Inputs), (outputs, Outputs)]
     structs = [ctypes_of(cls)() for _, cls in records]
     for (record, _), target in zip(records, structs, strict=True):
         to_c(record, target)
     found = copy.deepcopy(outputs)
+    corrections = []
     source = random.Random(seed)
     for _ in range(cycles):
         inputs.reset, inputs.program_end = source.random() < 0.02, source.random() < 0.02
+        inputs.tool_length = source.choice([inputs.tool_length, 80.0])
         for axis in inputs.axis:
             move(axis, source)
+        for command in inputs.volumetric:
+            command.enable = command.enable != (source.random() < 0.05)
+            command.no_move = source.random() < 0.2
+            command.factor[:] = [source.choice([0.0, 0.5, 1.0]) for _ in command.factor]
         to_c(inputs, structs[2])
         cycle(tables, state, inputs, outputs)
         native_cycle(*map(ctypes.byref, structs))
         from_c(structs[3], found)
-        assert bits(found.axis[: tables.axis_count]) == bits(outputs.axis[: tables.axis_count])
+        assert bits(found) == bits(outputs)
+        corrections += [axis.correction for axis in outputs.axis]
     after = copy.deepcopy(state)
     from_c(structs[1], after)
     assert bits(after) == bits(state)
+    return corrections
+
+
+def random_volumetric(index: int, source: random.Random) -> Volumetric:
+    """Return a compensation of six axes with errors in every interpolation."""
+
+    def table(name: str) -> ErrorTable:
+        mode = source.choice([None, *Interpolation])
+        if mode is None:
+            return ErrorTable(name, (source.uniform(-1e-3, 1e-3),))
+        letters = "XY" if mode is Interpolation.PATH_XY else "XYZ" if mode is Interpolation.PATH else ""
+        letters = letters or "".join(sorted(source.sample(LETTERS, source.randint(1, 3)), key=LETTERS.index))
+        lines = [sorted(source.sample(range(-90, 400), source.randint(2, 4))) for _ in letters]
+        nodes = tuple(tuple(map(float, node)) for node in product(*lines))
+        return ErrorTable(name, tuple(source.uniform(-1e-3, 1e-3) for _ in nodes), letters, nodes, mode)
+
+    return Volumetric(
+        index,
+        tuple((letter, number) for number, letter in enumerate(LETTERS, 1)),
+        "".join(source.sample("AB", 2)) + "".join(source.sample("XYZ", 3)) + "C",
+        source.randint(0, 6),
+        tuple(table(name) for name in ERRORS if source.random() < 0.4),
+        tool_position=(1.0, -2.0, 100.0),
+        tool_orientation=(0.0, 0.6, 0.8),
+        centers=((10.0, 20.0, -30.0), (-40.0, 5.0, 60.0), (70.0, -80.0, 9.0)),
+        offsets=(1.0, 0.0, -3.0, 0.1, 0.0, -0.2),
+        alternative_model=source.random() < 0.5,
+        negate=source.choice(["", "X"]),
+        filter_steps=source.choice([0, 7, 20]),
+        manual_activation=source.random() < 0.5,
+        max_records=100_000,
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_volumetric_compensations_of_six_axes(native_cycle: Any, seed: int) -> None:
+    source = random.Random(seed)
+    types = {letter: AxisType.TRANSLATORY if letter in "XYZ" else AxisType.ROTARY for letter in LETTERS}
+    axes = [Axis(n, letter, types[letter], volumetric_limit=5.0) for n, letter in enumerate(LETTERS, 1)]
+    follower = Axis(7, "X2", volumetric_limit=4.0, gantry_master=1)
+    machine = Machine((*axes, follower), tuple(random_volumetric(index, source) for index in range(2)))
+    corrections = check(native_cycle, machine, seed, 200)
+    assert len(set(corrections)) > 50
 
 
 @settings(max_examples=10)
