@@ -122,7 +122,7 @@ class Instance:
     # Reports
 
     def tell(self, severity: Severity, text: str) -> None:
-        """Put a line into the log, an error on standard error too; the same line once only."""
+        """Put a line into the log, an error on standard error too; the same line once, until the next ``reload``."""
         line = " ".join(text.replace("%", " percent").replace("\0", " ").split())
         line = line.encode("utf-8", "replace").decode()
         if line in self._told or len(self._told) > REMEMBERED_MAX:
@@ -215,6 +215,7 @@ class Instance:
 
     def _reload(self) -> None:
         """Read the lists in ``update_path``; they are refused as a whole when anything about them is wrong."""
+        self._told.clear()
         path = Path(self.controls.update_path) if self.controls.update_path else self._own_lists
         try:
             machine, complaints, errors = self._read(path)

@@ -253,8 +253,10 @@ def test_lists_that_do_not_fit_are_refused_as_a_whole(driver: Driver, tmp_path: 
     after = driver.step({"update_path": str(folder), "reload": True})
     assert after["X.leadscrew.correction"] == before["X.leadscrew.correction"]
     assert {after[f"{name}.error"] for name in ("X", "Y_ACHSE", "C")} == {902}
-    assert any("refused" in text for text in driver.errors())
+    assert len([text for text in driver.errors() if "refused" in text]) == 1
     assert driver.step({"reset": True, "reload": False})["X.error"] == 0
+    assert driver.step({"reset": False, "reload": True})["X.error"] == 902
+    assert len([text for text in driver.errors() if "refused" in text]) == 2
 
 
 def test_an_axis_whose_max_points_changes_keeps_its_lists_and_says_so(driver: Driver, tmp_path: Path) -> None:
