@@ -1,0 +1,39 @@
+"""The documentation names what is there, and nothing that must not be named."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "models").glob("*/README.md")])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text(encoding="utf-8")):
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
+
+
+def test_every_convention_has_a_test_that_exists() -> None:
+    page = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
+    rows = [row for row in page.splitlines() if row.startswith("| ") and not row.startswith("| Convention")]
+    assert len(rows) > 40
+    for row in rows:
+        (reference,) = re.findall(r"`([\w/]+\.py)::(\w+)`", row)
+        file, name = reference
+        assert f"def {name}(" in (ROOT / "tests" / file).read_text(encoding="utf-8"), row
+
+
+def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
+    files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")
+    here = re.escape(str(ROOT))
+    forbidden = re.compile(rf"pypi\.org|pythonhosted|registry\.npmjs|deb\.debian|/root/\w|{here}")
+    for name in filter(None, files):
+        path = ROOT / name
+        if path.suffix in {".png", ".fmu"} or path == Path(__file__) or not path.is_file():
+            continue
+        found = forbidden.search(path.read_text(encoding="utf-8", errors="replace"))
+        assert found is None, f"{name}: {found.group() if found else ''}"
