@@ -219,10 +219,8 @@ class Instance:
         path = Path(self.controls.update_path) if self.controls.update_path else self._own_lists
         try:
             machine, complaints, errors = self._read(path)
-            if errors:
-                complaints.append(f"{errors} errors in the lists")
-            if complaints:
-                raise ValueError("; ".join(complaints))
+            if errors or complaints:
+                raise ValueError(f"errors in the lists: {errors}" if errors else "; ".join(complaints))
             for name, number in self.runtime.update(machine).items():
                 self.tell(Severity.ERROR, f"axis {name} keeps its old lists: error {number}")
         except Exception as error:
