@@ -3,9 +3,9 @@
 from collections.abc import Callable
 
 import pytest
+from drawn_tables import tables
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from making import tables
 
 from axcomp.convert.formats import FORMATS, WITHIN, Options, written
 from axcomp.convert.machines import machine_with, tables_of

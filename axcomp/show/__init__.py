@@ -1,0 +1,1 @@
+"""Compensation tables as pictures, as tables in the terminal, and the difference of two machines."""

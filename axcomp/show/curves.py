@@ -1,0 +1,256 @@
+"""Curves over one quantity: leadscrew, cross, friction, most crosstalk tables and errors of an axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
+
+from .content import Content, NotComparableError, Records, Subject, span, spread
+from .style import COLOURS, labelled, line_styles, new_figure, printed
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = npt.NDArray[np.float64]
+
+WIDE_RATIO = 50.0
+"""From this ratio of the largest to the smallest place on, places are drawn on a logarithmic scale where it helps."""
+MARKED_MAX = 150
+"""More points than this are not marked: they would hide the line."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What an axis of a picture shows, and in which unit."""
+
+    name: str
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.name} [{self.unit}]"
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """One curve: straight between its points, the end values held outside.
+
+    Attributes
+    ----------
+    name : str
+        In the legend.
+    x, y : ndarray, shape (points,)
+        Ascending places and the values there.
+    period : float or None
+        After which it repeats; the last point then lies one period behind the first.
+    """
+
+    name: str
+    x: Array
+    y: Array
+    period: float | None = None
+
+    def at(self, x: Array) -> Array:
+        """Return the values at some places."""
+        if self.period is not None:
+            x = self.x[0] + np.mod(x - self.x[0], self.period)
+        values: Array = np.interp(x, self.x, self.y)
+        return values
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Some curves in one picture.
+
+    Attributes
+    ----------
+    subject : Subject
+        What they are of.
+    x, y : Quantity
+        Of the places and of the values.
+    lines : tuple of Line
+        At least one.
+    reversal : bool
+        There are two lines whose difference is of interest: it is drawn below them.
+    logarithmic : bool
+        The places may be drawn on a logarithmic scale.
+    zero_if_absent : bool
+        A line that another machine lacks is 0 there.
+    note : str
+        Added to the title.
+    """
+
+    subject: Subject
+    x: Quantity
+    y: Quantity
+    lines: tuple[Line, ...]
+    reversal: bool = False
+    logarithmic: bool = False
+    zero_if_absent: bool = False
+    note: str = ""
+
+    @property
+    def title(self) -> str:
+        """Heading of the picture."""
+        return f"{self.subject.title} ({self.note})" if self.note else self.subject.title
+
+    def places(self) -> Array:
+        """Return the places of all lines, ascending."""
+        return np.unique(np.concatenate([line.x for line in self.lines]))
+
+    def figure(self) -> Figure:
+        """Return the curves, and below them their difference where it is of interest."""
+        if not (self.reversal and len(self.lines) == 2):
+            figure = new_figure()
+            plot_curves(figure.add_subplot(), self)
+            return figure
+        figure = new_figure(1.3)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+        plot_curves(upper, self).set_xlabel("")
+        plot_reversal(lower, self)
+        return figure
+
+    def records(self) -> Records:
+        """Return place and values, a row for each place."""
+        x = self.places()
+        columns = [line.at(x) for line in self.lines]
+        names = [f"{line.name} [{self.y.unit}]" for line in self.lines]
+        if self.reversal and len(columns) == 2:
+            columns.append(columns[0] - columns[1])
+            names.append(f"difference [{self.y.unit}]")
+        rows = [tuple(float(value) for value in row) for row in zip(x, *columns, strict=True)]
+        return Records((str(self.x), *names), [*rows])
+
+    def extract(self, rows: int) -> Records:
+        """Return evenly spread rows."""
+        all_rows = self.records()
+        return Records(all_rows.columns, [all_rows.rows[row] for row in spread(len(all_rows.rows), rows)])
+
+    def summary(self) -> tuple[str, str, str]:
+        """Return the number of points, the range of the places and of the values."""
+        x = self.places()
+        values = np.concatenate([line.y for line in self.lines])
+        sides = f" × {len(self.lines)}" if len(self.lines) > 1 else ""
+        return f"{len(x)}{sides}", span(x.tolist(), self.x.unit), span(np.round(values, 4).tolist(), self.y.unit)
+
+    def against(self, other: Content) -> CurvesDifference:
+        """Return the difference to curves of the same kind."""
+        if not isinstance(other, Curves) or (self.x, self.y) != (other.x, other.y):
+            raise NotComparableError(f"{self.subject.title}: the two tables are over different quantities")
+        both = CurvesDifference(self, other)
+        if not both.difference().lines:
+            raise NotComparableError(f"{self.subject.title}: the two tables have no curve in common")
+        return both
+
+
+@dataclass(frozen=True, eq=False)
+class CurvesDifference:
+    """Two sets of curves and what the second one has more, curve by curve."""
+
+    one: Curves
+    other: Curves
+
+    @property
+    def subject(self) -> Subject:
+        """What they are of."""
+        return self.one.subject
+
+    def difference(self) -> Curves:
+        """Return other − one, line by line, at all points of both."""
+        lines = []
+        for name in dict.fromkeys(line.name for line in (*self._longer().lines, *self.one.lines, *self.other.lines)):
+            mine, theirs = (self._line(content, name) for content in (self.one, self.other))
+            if mine is not None and theirs is not None:
+                x = np.unique(np.concatenate([mine.x, theirs.x]))
+                lines.append(Line(name, x, theirs.at(x) - mine.at(x)))
+        y = Quantity(f"Δ {self.one.y.name}", self.one.y.unit)
+        return replace(self.one, y=y, lines=tuple(lines), reversal=False, note="other − this one")
+
+    def _longer(self) -> Curves:
+        return self.other if len(self.other.lines) > len(self.one.lines) else self.one
+
+    def _line(self, content: Curves, name: str) -> Line | None:
+        """Return a line by name: the only one serves for each, and what is absent may be 0; None: it has no partner."""
+        for line in content.lines:
+            if line.name == name:
+                return line
+        if content.zero_if_absent:
+            x = content.places()[[0, -1]]
+            return Line(name, x, np.zeros(2))
+        if len(content.lines) == 1 and name in {line.name for line in self._longer().lines}:
+            return content.lines[0]
+        return None
+
+    def figure(self) -> Figure:
+        """Return both sets in one picture, and their difference below."""
+        figure = new_figure(1.3)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+        plot_curves(upper, self.one, suffix=", this one")
+        plot_curves(upper, self.other, suffix=", other", style="--", hollow=True)
+        upper.set_title(f"{self.subject.title}: two machines", fontsize=12)
+        upper.set_xlabel("")
+        plot_curves(lower, self.difference())
+        lower.set_title("other − this one", fontsize=11)
+        lower.set_ylabel(f"difference [{self.one.y.unit}]", fontsize=11)
+        return figure
+
+    def records(self) -> Records:
+        """Return place and differences."""
+        return self.difference().records()
+
+    def extract(self, rows: int) -> Records:
+        """Return evenly spread rows."""
+        return self.difference().extract(rows)
+
+    def summary(self) -> tuple[str, str, str]:
+        """Return size, range, and range of the difference."""
+        return self.difference().summary()
+
+    def against(self, other: Content) -> Content:
+        """Refuse: a difference is compared no further."""
+        raise NotComparableError(f"{other.subject.title}: a difference has no difference")
+
+
+def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-", hollow: bool = False) -> Axes:
+    """Draw curves with their points into ``ax``; return it."""
+    # The later ones thinner: where two lie upon each other both are seen.
+    for place, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
+        ax.plot(
+            line.x,
+            line.y,
+            style,
+            color=colour,
+            lw=2.2 if place == 0 and len(curves.lines) > 1 else 1.4,
+            marker=marker if len(line.x) <= MARKED_MAX else None,
+            ms=4.5 if len(line.x) <= MARKED_MAX // 3 else 3.0,
+            markerfacecolor="white" if hollow else colour,
+            label=printed(line.name + suffix),
+        )
+    ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+    if curves.logarithmic and _is_wide(curves.places()):
+        ax.set_xscale("log")
+        ax.xaxis.set_major_formatter("{x:g}")
+    if len(curves.lines) > 1 or suffix:
+        ax.legend(loc="best", fontsize=10, framealpha=0.9, ncols=2 if len(curves.lines) > 3 else 1)
+    return labelled(ax, curves.title, str(curves.x), str(curves.y))
+
+
+def plot_reversal(ax: Axes, curves: Curves) -> Axes:
+    """Draw the first of two curves minus the second into ``ax``; return it."""
+    first, second = curves.lines
+    x = curves.places()
+    difference = first.at(x) - second.at(x)
+    ax.fill_between(x, 0.0, difference, color=COLOURS[2], alpha=0.2, lw=0)
+    ax.plot(x, difference, "-", color=COLOURS[2], lw=1.4)
+    ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+    title = f"{first.name} − {second.name}: {difference.min():.1f} … {difference.max():.1f} {curves.y.unit}"
+    labelled(ax, title, str(curves.x), f"difference [{curves.y.unit}]")
+    ax.title.set_fontsize(11)
+    return ax
+
+
+def _is_wide(x: Array) -> bool:
+    return bool(len(x) > 1 and x[0] > 0.0 and x[-1] / x[0] >= WIDE_RATIO)

@@ -1,0 +1,179 @@
+"""Maps: values over two quantities, as a plane compensation and crosstalk over two adaptation axes have them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patheffects import AbstractPathEffect, withStroke
+from matplotlib.ticker import MaxNLocator
+
+from .content import Content, NotComparableError, Records, Subject, span, spread
+from .curves import Array, Quantity
+from .style import DIVERGING, labelled, new_figure, printed
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+
+COLUMNS_SHOWN = 9
+"""Columns of a map in the terminal."""
+CONTOURS = 9
+FLAT, FLAT_SHARE = 0.02, 0.1
+"""Values below this share of the largest are 0; where so many of them are, a contour along 0 would be noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class Map:
+    """One or several maps over the same two quantities.
+
+    Attributes
+    ----------
+    subject : Subject
+        What they are of.
+    x, y, z : Quantity
+        Across, upwards, and of the values.
+    across, up : ndarray, shape (nx,) and (ny,)
+        The grid that is drawn and listed, ascending.
+    layers : tuple of str
+        A name for each map; ("",) for a single one.
+    at : function of (x, y), shapes (nx,) and (ny,), → ndarray, shape (layers, ny, nx)
+        The values on any grid.
+    points : ndarray, shape (n, 2)
+        Where the values are given if not on the grid: marked.
+    note : str
+        Added to the title.
+    """
+
+    subject: Subject
+    x: Quantity
+    y: Quantity
+    z: Quantity
+    across: Array
+    up: Array
+    layers: tuple[str, ...]
+    at: Callable[[Array, Array], Array]
+    points: Array
+    note: str = ""
+
+    @property
+    def title(self) -> str:
+        """Heading of the picture."""
+        return f"{self.subject.title} ({self.note})" if self.note else self.subject.title
+
+    def values(self) -> Array:
+        """Return the values on the grid, shape (layers, ny, nx)."""
+        return self.at(self.across, self.up)
+
+    def figure(self) -> Figure:
+        """Return the maps side by side with one scale of colours."""
+        columns = min(len(self.layers), 2)
+        rows = -(-len(self.layers) // columns)
+        figure = new_figure(1.25 if rows == 1 else 0.85 * rows)
+        values = self.values()
+        limit = float(np.abs(values).max()) or 1.0
+        axes = figure.subplots(rows, columns, squeeze=False)
+        for layer, name, ax in zip(values, self.layers, axes.flat, strict=True):
+            mesh = plot_map(ax, self, layer, limit)
+            ax.set_title(printed(name or self.title), fontsize=12)
+        figure.colorbar(mesh, ax=axes, aspect=30).set_label(str(self.z), fontsize=11)
+        if len(self.layers) > 1:
+            figure.suptitle(printed(self.title), fontsize=13)
+        return figure
+
+    def records(self) -> Records:
+        """Return a row for each marked point, else for each place of the grid: place and value of each layer."""
+        names = [f"{layer or self.z.name} [{self.z.unit}]" for layer in self.layers]
+        if len(self.points):
+            places = self.points
+            values = np.array([self.at(x[np.newaxis], y[np.newaxis])[:, 0, 0] for x, y in self.points[..., np.newaxis]])
+        else:
+            places = np.stack(np.meshgrid(self.across, self.up), axis=-1).reshape(-1, 2)
+            values = self.values().reshape(len(self.layers), -1).T
+        rows = np.column_stack([places, values]).tolist()
+        return Records((str(self.x), str(self.y), *names), [tuple(row) for row in rows])
+
+    def extract(self, rows: int) -> Records:
+        """Return the marked points; else the map as a sheet, rows for one quantity and columns for the other."""
+        if len(self.points):
+            everything = self.records()
+            return Records(everything.columns, [everything.rows[row] for row in spread(len(everything.rows), rows)])
+        columns = spread(len(self.across), COLUMNS_SHOWN)
+        values = self.values()[0]
+        sheet = [
+            (float(self.up[j]), *(float(values[j, i]) for i in columns)) for j in reversed(spread(len(self.up), rows))
+        ]
+        head = (f"{self.y} \\ {self.x}", *(printed(f"{self.across[i]:.5g}") for i in columns))
+        return Records(head, [*sheet])
+
+    def summary(self) -> tuple[str, str, str]:
+        """Return the size of the grid, the ranges of both quantities and of the values."""
+        ranges = f"{span(self.across.tolist(), self.x.unit)}; {span(self.up.tolist(), self.y.unit)}"
+        size = f"{len(self.points)} tests" if len(self.points) else f"{len(self.across)} × {len(self.up)}"
+        return size, ranges, span(np.round(self.values(), 4).ravel().tolist(), self.z.unit)
+
+    def against(self, other: Content) -> Map:
+        """Return other − this one, on the grid of both."""
+        if not isinstance(other, Map) or (self.x, self.y, self.z) != (other.x, other.y, other.z):
+            raise NotComparableError(f"{self.subject.title}: the two tables are over different quantities")
+        if len({len(self.layers), len(other.layers)} - {1}) > 1:
+            raise NotComparableError(f"{self.subject.title}: {len(self.layers)} maps against {len(other.layers)}")
+        mine, theirs = self.at, other.at
+        return replace(
+            self,
+            z=Quantity(f"Δ {self.z.name}", self.z.unit),
+            across=np.union1d(self.across, other.across),
+            up=np.union1d(self.up, other.up),
+            layers=max(self.layers, other.layers, key=len),
+            at=lambda x, y: theirs(x, y) - mine(x, y),
+            points=np.empty((0, 2)),
+            note="other − this one",
+        )
+
+
+def plot_map(ax: Axes, content: Map, values: Array, limit: float) -> QuadMesh:
+    """Draw one map into ``ax``, its colours from −limit to limit, with contours.
+
+    Parameters
+    ----------
+    ax : Axes
+        Gets labels, but no title and no scale of colours.
+    content : Map
+        What is drawn.
+    values : ndarray, shape (ny, nx)
+        One of its layers.
+    limit : float
+        Of the colours, > 0.
+
+    Returns
+    -------
+    QuadMesh
+        For a scale of colours.
+    """
+    across, up = (_widened(side) for side in (content.across, content.up))
+    wide = np.pad(values, ((0, len(up) - len(content.up)), (0, len(across) - len(content.across))), mode="edge")
+    mesh = ax.pcolormesh(across, up, wide, cmap=DIVERGING, vmin=-limit, vmax=limit, shading="gouraud", rasterized=True)
+    if np.ptp(values) > 0.0 and min(values.shape) > 1:
+        lines = ax.contour(across, up, values, levels=_levels(values), colors="0.15", linewidths=0.6)
+        halo: list[AbstractPathEffect] = [withStroke(linewidth=2.0, foreground="white", alpha=0.8)]
+        for label in ax.clabel(lines, fontsize=9, fmt=lambda level: printed(f"{level:.3g}")):
+            label.set_path_effects(halo)
+    if len(content.points):
+        ax.plot(*content.points.T, "o", ms=5, color="black", markeredgecolor="white", clip_on=False, zorder=5)
+    labelled(ax, "", str(content.x), str(content.y)).grid(visible=False)
+    return mesh
+
+
+def _levels(values: Array) -> list[float]:
+    """Return where contours run; along 0 only where 0 is a line and not an area."""
+    levels = MaxNLocator(CONTOURS).tick_values(float(values.min()), float(values.max()))
+    flat = np.mean(np.abs(values) < FLAT * np.abs(values).max()) > FLAT_SHARE
+    return [float(level) for level in levels if not (flat and level == 0.0)]
+
+
+def _widened(side: Array) -> Array:
+    """Return a side with a second place if it has but one: an area needs two."""
+    return side if len(side) > 1 else np.array([side[0], side[0] + 1.0])

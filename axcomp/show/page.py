@@ -1,0 +1,78 @@
+"""Contents as one HTML page that needs nothing beside it: pictures embedded, tables foldable, no script."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from html import escape
+
+from .content import Cell, Content, Records
+from .style import png, printed
+
+ROWS_SHOWN = 60
+"""Rows of a table in the page; all of them are in the CSV file."""
+
+_STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; color: #1d2327; max-width: 1240px; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.6rem; }
+h2 { font-size: 1.2rem; margin-top: 2.5rem; border-top: 1px solid #d5dadd; padding-top: 1rem; }
+img { width: 100%; height: auto; max-width: 1200px; } nav { columns: 3 16rem; } nav ul { margin: 0; }
+table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; margin: 0.5rem 0; }
+th, td { padding: 0.15rem 0.8rem; text-align: right; border-bottom: 1px solid #e4e8ea; }
+th:first-child, td:first-child { text-align: left; } th { background: #f3f5f6; }
+summary { cursor: pointer; } .wide { overflow-x: auto; } .note { color: #6b4a00; }
+"""
+
+
+def page(title: str, contents: Sequence[Content], notes: Sequence[str] = ()) -> str:
+    """Return a page with an overview and a section for each content."""
+    sections = "\n".join(section(content) for content in contents)
+    links = "".join(f'<li><a href="#{_id(one)}">{escape(one.subject.title)}</a></li>' for one in contents)
+    remarks = "".join(f'<p class="note">{escape(note)}</p>' for note in notes)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,"><title>{escape(title)}</title><style>{_STYLE}</style></head>
+<body>
+<h1>{escape(title)}</h1>
+{remarks}
+<nav><ul>{links}</ul></nav>
+<div class="wide">{table(overview(contents))}</div>
+{sections}
+</body>
+</html>
+"""
+
+
+def section(content: Content) -> str:
+    """Return one content: heading, picture, and its numbers to unfold."""
+    title = escape(content.subject.title)
+    picture = b64encode(png(content.figure())).decode()
+    shown = content.extract(ROWS_SHOWN)
+    return f"""<section id="{_id(content)}"><h2>{title}</h2>
+<img alt="{title}" src="data:image/png;base64,{picture}">
+<details><summary>Numbers</summary><div class="wide">{table(shown)}</div></details></section>"""
+
+
+def overview(contents: Sequence[Content]) -> Records:
+    """Return a row for each content: what it is, how many points, which range, which values."""
+    rows = [(content.subject.title, *content.summary()) for content in contents]
+    return Records(("compensation", "points", "range", "values"), [*rows])
+
+
+def table(records: Records) -> str:
+    """Return numbers as an HTML table."""
+    head = "".join(f"<th>{escape(column)}</th>" for column in records.columns)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{escape(shown(cell))}</td>" for cell in row) + "</tr>" for row in records.rows
+    )
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def shown(cell: Cell) -> str:
+    """Return a cell as readers want it: five significant digits, true minus signs."""
+    return printed(cell if isinstance(cell, str) else f"{cell + 0.0:.5g}")
+
+
+def _id(content: Content) -> str:
+    return escape(content.subject.name, quote=True)

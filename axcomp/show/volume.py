@@ -1,0 +1,204 @@
+"""Volumetric compensations as contents: errors over their axes, constant errors, TCP error over the work volume.
+
+What is drawn comes from the kernel's interpolation and model, so it is what the machine corrects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..compile import compile_tables
+from ..kernel.record import zeros
+from ..kernel.volumetric_errors import errors_at
+from ..kernel.volumetric_model import FRAME, carry_to_workpiece
+from ..machine import Axis, Machine
+from ..volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric, is_angle
+from .bars import Bars
+from .content import Content, Subject
+from .curves import Array, Curves, Line, Quantity
+from .field import Field
+from .maps import Map
+
+MICRO = {False: (1e3, "µm"), True: (1e6, "µrad")}
+"""Factor and unit in which errors are shown, by whether they are angles: files have mm and rad."""
+SAMPLES = 41
+"""Places along each side of a map."""
+ARROWS = 4
+"""Arrows along each side of the work volume."""
+
+
+class ErrorModel:
+    """A volumetric compensation of a machine, evaluated.
+
+    Parameters
+    ----------
+    machine : Machine
+        With the axes of the compensation.
+    volumetric : Volumetric
+        One of its compensations.
+    """
+
+    def __init__(self, machine: Machine, volumetric: Volumetric) -> None:
+        # What else there is would only cost time.
+        axes = tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes)
+        tables = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
+        self._pool, self._table = tables.pool, tables.volumetric[0]
+
+    def errors(self, position: Sequence[float]) -> list[float]:
+        """Return the 72 errors (mm, rad) in the order of ``ERRORS`` at a position, shape (6,), mm and °."""
+        found = zeros(len(ERRORS))
+        errors_at(self._pool, self._table, list(position), found)
+        return found
+
+    def tcp_error(self, position: Sequence[float], tool_length: float = 0.0) -> Array:
+        """Return actual − nominal place of the tool tip on the workpiece, shape (3,), mm, at a position, shape (6,)."""
+        nominal, actual = zeros(FRAME), zeros(FRAME)
+        carry_to_workpiece(self._table, list(position), tool_length, self.errors(position), nominal, actual)
+        error: Array = np.array(actual[:3]) - np.array(nominal[:3])
+        return error
+
+
+def volumetric_contents(machine: Machine, axis: str | None = None, tool_length: float = 0.0) -> list[Content]:
+    """Return what there is to show of the volumetric compensations.
+
+    Parameters
+    ----------
+    machine : Machine
+        With the axes of its compensations.
+    axis : str or None
+        Only the errors of the axis with this name, and not the TCP error.
+    tool_length : float
+        For the TCP error, mm.
+    """
+    found: list[Content] = []
+    for volumetric in machine.volumetric:
+        names = {letter: machine.axes[machine.index_of(number)].name for letter, number in volumetric.axes}
+        model = ErrorModel(machine, volumetric)
+        for letter in LETTERS:
+            if letter in names and axis in {None, names[letter]}:
+                found += _errors_of_axis(volumetric, model, letter, names)
+        if axis is None:
+            found += _constants(volumetric)
+            found.append(tcp_field(volumetric, model, tool_length))
+    return found
+
+
+def range_of(volumetric: Volumetric, letter: str) -> tuple[float, float]:
+    """Return the least and the largest position of an axis in the error tables, (0, 0) where it is in none."""
+    places = [
+        node[table.arguments.index(letter)]
+        for table in volumetric.errors
+        if letter in table.arguments
+        for node in table.nodes
+    ]
+    return (min(places), max(places)) if places else (0.0, 0.0)
+
+
+def tcp_field(volumetric: Volumetric, model: ErrorModel, tool_length: float = 0.0) -> Field:
+    """Return the TCP error at a grid of places in the work volume, the rotary axes at 0 or as near as they get."""
+    sides = []
+    for letter in LINEAR:
+        low, high = range_of(volumetric, letter)
+        sides.append(np.linspace(low, high, ARROWS) if high > low else np.array([low]))
+    grid = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, len(LINEAR))
+    rotary = [float(np.clip(0.0, *range_of(volumetric, letter))) for letter in ROTARY]
+    errors = np.array([model.tcp_error([*place, *rotary], tool_length) for place in grid.tolist()])
+    tool = f"tool length {tool_length:g} mm" if tool_length else ""
+    return Field(Subject(str(volumetric.index), "volumetric", "TCP error"), grid, MICRO[False][0] * errors, tool)
+
+
+def _errors_of_axis(volumetric: Volumetric, model: ErrorModel, letter: str, names: dict[str, str]) -> list[Content]:
+    """Return the errors of one axis: curves by argument and unit, maps for those over several axes."""
+    found: list[Content] = []
+    tables = [table for table in volumetric.errors if table.name[-1] == letter and any(table.values)]
+    for argument in LETTERS:
+        for angular in (False, True):
+            chosen = [t for t in tables if t.arguments == argument and is_angle(t.name) == angular]
+            if chosen:
+                found.append(_curves(volumetric, model, letter, argument, chosen, names))
+    found += [_map(volumetric, model, table, names) for table in tables if len(table.arguments) > 1]
+    return found
+
+
+def _position(letter: str, names: dict[str, str]) -> Quantity:
+    return Quantity(f"position of {names.get(letter, letter)}", "°" if letter in ROTARY else "mm")
+
+
+def _curves(
+    volumetric: Volumetric,
+    model: ErrorModel,
+    letter: str,
+    argument: str,
+    tables: Sequence[ErrorTable],
+    names: dict[str, str],
+) -> Curves:
+    angular = is_angle(tables[0].name)
+    factor, unit = MICRO[angular]
+    lines = []
+    for table in tables:
+        x = np.unique([node[0] for node in table.nodes])
+        place = [0.0] * len(LETTERS)
+        values = []
+        for position in x.tolist():
+            place[LETTERS.index(argument)] = position
+            values.append(model.errors(place)[ERRORS.index(table.name)])
+        lines.append(Line(table.name, x, factor * np.array(values)))
+    over = "" if argument == letter else f" over {argument}"
+    what = "angular errors" if angular else "linear errors"
+    return Curves(
+        Subject(str(volumetric.index), "volumetric", f"{what} of {names.get(letter, letter)}{over}"),
+        _position(argument, names),
+        Quantity("error, actual − nominal", unit),
+        tuple(lines),
+        zero_if_absent=True,
+    )
+
+
+def _map(volumetric: Volumetric, model: ErrorModel, table: ErrorTable, names: dict[str, str]) -> Map:
+    """Return one error over its first two axes, the others in the middle of their ranges."""
+    factor, unit = MICRO[is_angle(table.name)]
+    first, second, *others = list(table.arguments)
+    columns = {argument: [node[place] for node in table.nodes] for place, argument in enumerate(table.arguments)}
+    middle = {argument: 0.5 * (min(columns[argument]) + max(columns[argument])) for argument in others}
+
+    def at(across: Array, up: Array) -> Array:
+        place = [0.0] * len(LETTERS)
+        for argument, position in middle.items():
+            place[LETTERS.index(argument)] = position
+        values = np.empty((len(up), len(across)))
+        for j, y in enumerate(up.tolist()):
+            for i, x in enumerate(across.tolist()):
+                place[LETTERS.index(first)], place[LETTERS.index(second)] = x, y
+                values[j, i] = model.errors(place)[ERRORS.index(table.name)]
+        return factor * values[np.newaxis]
+
+    across, up = (np.linspace(min(columns[a]), max(columns[a]), SAMPLES) for a in (first, second))
+    at_middle = ", ".join(f"{names.get(argument, argument)} = {position:g}" for argument, position in middle.items())
+    return Map(
+        Subject(str(volumetric.index), "volumetric", table.name),
+        _position(first, names),
+        _position(second, names),
+        Quantity(f"{table.name}, actual − nominal", unit),
+        across,
+        up,
+        ("",),
+        at,
+        np.array(list(zip(columns[first], columns[second], strict=True))) if not others else np.empty((0, 2)),
+        f"at {at_middle}" if at_middle else "",
+    )
+
+
+def _constants(volumetric: Volumetric) -> list[Content]:
+    """Return the errors that do not depend on any position."""
+    found: list[Content] = []
+    for angular, what in ((False, "linear"), (True, "angular")):
+        factor, unit = MICRO[angular]
+        tables = [t for t in volumetric.errors if not t.arguments and is_angle(t.name) == angular]
+        if tables:
+            subject = Subject(str(volumetric.index), "volumetric", f"constant {what} errors")
+            values = {table.name: factor * table.values[0] for table in tables}
+            found.append(Bars(subject, Quantity("error, actual − nominal", unit), values))
+    return found
