@@ -30,6 +30,7 @@ from ..measurement.simulated import (
     positioning,
     straightness,
 )
+from .five_axis import five_axis
 
 X, Y, Z, C = 1, 2, 3, 6
 """Logical axis numbers."""
@@ -127,7 +128,11 @@ def rotary_table(plant: Plant) -> Machine:
     return Machine((c,))
 
 
-MACHINES: dict[str, Callable[[Plant], Machine]] = {"three_axis": three_axis, "rotary_table": rotary_table}
+MACHINES: dict[str, Callable[[Plant], Machine]] = {
+    "three_axis": three_axis,
+    "rotary_table": rotary_table,
+    "five_axis": five_axis,
+}
 """The models whose lists are measured, by the name of their folder."""
 
 

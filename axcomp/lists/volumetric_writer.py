@@ -1,15 +1,21 @@
-"""A ``Volumetric`` as a list and a parameter file; reading them gives the same compensation."""
+"""A ``Volumetric`` as a list and a parameter file; reading them gives the same compensation.
+
+The file is an ISG CSV file, or an Etalon exchange file where the compensation has come from one that ends in ``.exc``.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from ..volumetric import ErrorTable, Interpolation, Volumetric, is_grid
-from .catalogue_volumetric import AUTO, ISG_CSV
+from .catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
+from .etalon import write_etalon
 from .format import Lines
 from .isg_csv import write_isg_csv
 from .parameter import ListKind
 from .volumetric_blocks import ParameterBlock
+
+_ETALON_SUFFIX = ".exc"
 
 
 def list_file(volumetric: Volumetric) -> str:
@@ -19,7 +25,17 @@ def list_file(volumetric: Volumetric) -> str:
 
 def parameter_file(volumetric: Volumetric) -> str:
     """Return the usual name of a compensation's parameter file."""
-    return f"vol_comp{volumetric.index}.csv"
+    return f"vol_comp{volumetric.index}{_ETALON_SUFFIX if _is_etalon(volumetric) else '.csv'}"
+
+
+def _is_etalon(volumetric: Volumetric) -> bool:
+    """Tell whether the parameters were in an Etalon exchange file and still fit into one."""
+    named = [name for name in volumetric.files if name]
+    return (
+        bool(named)
+        and all(name.lower().endswith(_ETALON_SUFFIX) for name in named)
+        and all(error.arguments in ("", error.name[-1]) for error in volumetric.errors)
+    )
 
 
 def format_volumetric_list(volumetric: Volumetric) -> str:
@@ -34,7 +50,7 @@ def format_volumetric_list(volumetric: Volumetric) -> str:
     lines.add_unless_default("alternative_model", volumetric.alternative_model)
     lines.heading("Parameters")
     lines.add("file[j]", parameter_file(volumetric), 0)
-    lines.add("file_format[j]", ISG_CSV, 0)
+    lines.add("file_format[j]", ETALON_EXCHANGE if _is_etalon(volumetric) else ISG_CSV, 0)
     lines.add("interpolation", _interpolation(volumetric.errors))
     lines.heading("Correction and switching")
     lines.add_unless_default("negate", volumetric.negate)
@@ -47,8 +63,9 @@ def format_volumetric_list(volumetric: Volumetric) -> str:
 
 
 def format_parameters(volumetric: Volumetric) -> str:
-    """Return the text of an ISG CSV file with all parameters."""
-    return write_isg_csv(blocks_of(volumetric))
+    """Return the text of a file with all parameters."""
+    blocks = blocks_of(volumetric)
+    return write_etalon(blocks) if _is_etalon(volumetric) else write_isg_csv(blocks)
 
 
 def blocks_of(volumetric: Volumetric) -> list[ParameterBlock]:

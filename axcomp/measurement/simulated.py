@@ -30,6 +30,12 @@ class Plant(Protocol):
     def true(self) -> list[float]:
         """Positions of the tool."""
 
+    def place(self, point: tuple[float, float, float]) -> tuple[float, float, float]:
+        """Return where a point that moves with the tool is, seen from the workpiece; ValueError if it has no bodies.
+
+        It is given as it is when all axes are at 0.
+        """
+
     @property
     def currents(self) -> list[float]:
         """Motor currents."""
