@@ -14,14 +14,15 @@ PICTURE = "demo.png"
 NOTE = """\
 Largest errors: true position of the tool against the raw setpoint, without and with this one compensation (all: every
 one), the others on; geometric errors at standstill, crosstalk while the other axis changes speed, friction as peaks at
-the reversals of a circle. The FMUs step side by side: a delay of one communication step between them is inherent."""
+the reversals of a circle; TCP: the tool tip as the workpiece sees it, with and without all volumetric compensations,
+at standstill. The FMUs step side by side: a delay of one communication step between them is inherent."""
 
 EXAMPLE = """\
 PATH needs a plant.json beside the lists: drives, friction and geometric errors of the machine.
 
 examples:
   axcomp demo
-  axcomp demo --machine models/rotary_table --output demo
+  axcomp demo --machine models/five_axis --output demo
 """
 
 

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from fmpy import read_model_description
@@ -39,12 +39,31 @@ class Job:
         Communication step, s.
     off : tuple of tuple of str
         For each run the ``enable`` inputs that are false.
+    tool_length : float or None
+        mm; None: the plant knows no tool tip.
     """
 
     axes: tuple[str, ...]
     currents: tuple[str, ...]
     cycle_time: float
     off: tuple[tuple[str, ...], ...]
+    tool_length: float | None = None
+
+
+class Recorded(NamedTuple):
+    """What a run shows at the end of each step, all in mm or °.
+
+    Attributes
+    ----------
+    true, lag : array, shape (cycles, axes)
+        True positions and following errors.
+    tip : array, shape (cycles, 3)
+        Error of the tool tip in the workpiece's coordinates; shape (cycles, 0) for a plant that knows none.
+    """
+
+    true: Array
+    lag: Array
+    tip: Array
 
 
 class Instance:
@@ -100,7 +119,7 @@ class Reals:
         return values
 
 
-def couple(folder: Path, job: Job, commands: Array, off: Sequence[str]) -> tuple[Array, Array]:
+def couple(folder: Path, job: Job, commands: Array, off: Sequence[str]) -> Recorded:
     """Run both FMUs from rest to the end of the commands.
 
     Parameters
@@ -113,13 +132,6 @@ def couple(folder: Path, job: Job, commands: Array, off: Sequence[str]) -> tuple
         Setpoints, velocities, accelerations of all axes.
     off : sequence of str
         ``enable`` inputs that are false.
-
-    Returns
-    -------
-    array, shape (cycles, axes)
-        True positions at the end of each step.
-    array, shape (cycles, axes)
-        Following errors.
     """
     compensation, plant = Instance(folder / COMPENSATION), Instance(folder / PLANT)
     axes = job.axes
@@ -130,9 +142,15 @@ def couple(folder: Path, job: Job, commands: Array, off: Sequence[str]) -> tuple
     )
     driven = plant.reals([f"{axis}.setpoint" for axis in axes] + [f"{axis}.current" for axis in job.currents])
     measured = plant.reals(f"{axis}.measured_position" for axis in axes)
-    shown = plant.reals(f"{axis}.{name}" for name in ("true_position", "following_error") for axis in axes)
+    positions = [f"{axis}.{name}" for name in ("true_position", "following_error") for axis in axes]
+    tips = [] if job.tool_length is None else [f"tcp.{prefix}{k}" for prefix in ("", "nominal_") for k in "xyz"]
+    meant = plant.reals(f"{axis}.commanded_position" for axis in axes if tips)
+    shown = plant.reals(positions + tips)
 
     rows = commands.tolist()
+    if job.tool_length is not None:
+        for instance in (compensation, plant):
+            instance.reals(["tool_length"]).set([job.tool_length])
     compensation.switch_off(off)
     given.set(rows[0])
     actual.set(rows[0][: len(axes)])
@@ -140,18 +158,21 @@ def couple(folder: Path, job: Job, commands: Array, off: Sequence[str]) -> tuple
     driven.set(corrected.get())
     plant.fmu.exitInitializationMode()
 
-    recorded = np.empty((len(rows), 2 * len(axes)))
+    recorded = np.empty((len(rows), len(positions) + len(tips)))
     for cycle, row in enumerate(rows):
         time = cycle * job.cycle_time
         given.set(row)
         actual.set(measured.get())
         driven.set(corrected.get())
+        meant.set(row[: meant.count])
         compensation.fmu.doStep(time, job.cycle_time)
         plant.fmu.doStep(time, job.cycle_time)
         recorded[cycle] = shown.get()
     compensation.close()
     plant.close()
-    return recorded[:, : len(axes)], recorded[:, len(axes) :]
+    true, lag, tip = np.split(recorded, [len(axes), 2 * len(axes)], axis=1)
+    half = len(tips) // 2
+    return Recorded(true, lag, tip[:, :half] - tip[:, half:])
 
 
 def write_job(place: Path, job: Job, commands: Sequence[Array]) -> None:
@@ -162,20 +183,23 @@ def write_job(place: Path, job: Job, commands: Sequence[Array]) -> None:
     np.savez(place / "inputs.npz", **arrays)
 
 
-def read_results(place: Path) -> list[tuple[Array, Array]]:
-    """Return true positions and following errors of each run; FileNotFoundError if there are none."""
+def read_results(place: Path) -> list[Recorded]:
+    """Return what each run has recorded; FileNotFoundError if there is nothing."""
     with np.load(place / "results.npz") as arrays:
-        return [(arrays[f"true{run}"], arrays[f"lag{run}"]) for run in range(len(arrays.files) // 2)]
+        runs = range(len(arrays.files) // len(Recorded._fields))
+        return [Recorded(*(arrays[f"{name}{run}"] for name in Recorded._fields)) for run in runs]
 
 
 def main(place: Path) -> None:
     """Do a job that lies in a folder beside those of the FMUs."""
     values = json.loads((place / "job.json").read_text(encoding="utf-8"))
-    job = Job(tuple(values["axes"]), tuple(values["currents"]), values["cycle_time"], tuple(map(tuple, values["off"])))
+    lists = {name: tuple(values.pop(name)) for name in ("axes", "currents")}
+    job = Job(**values | lists | {"off": tuple(map(tuple, values["off"]))})
     results: dict[str, Any] = {}
     with np.load(place / "inputs.npz") as inputs:
         for run, off in enumerate(job.off):
-            results[f"true{run}"], results[f"lag{run}"] = couple(place.parent, job, inputs[str(run)], off)
+            recorded = couple(place.parent, job, inputs[str(run)], off)
+            results.update((f"{name}{run}", values) for name, values in recorded._asdict().items())
     # Complete before the process ends: ending an embedded interpreter is where it may fail.
     unfinished = place / "unfinished.npz"
     np.savez(unfinished, **results)

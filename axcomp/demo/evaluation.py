@@ -9,7 +9,7 @@ import numpy as np
 
 from ..machine import Machine
 from ..measurement.motion import Array
-from .trials import Cycles, Trial, name_of
+from .trials import TCP, VOLUMETRIC, Cycles, Trial, name_of
 
 MILLI = 1e3
 BEFORE, AFTER = 10, 120
@@ -18,20 +18,25 @@ BEFORE, AFTER = 10, 120
 
 @dataclass(frozen=True)
 class Record:
-    """What a run has recorded of each axis, by its name, at the end of each cycle, shape (cycles,); mm or °."""
+    """What a run has recorded of each axis, by its name, at the end of each cycle, shape (cycles,); mm or °.
+
+    ``tip_error``: of the tool tip as the workpiece sees it, shape (cycles, 3), mm.
+    """
 
     true_position: Mapping[str, Array]
     following_error: Mapping[str, Array]
+    tip_error: Array
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The error of one axis in one trial, in µm or 0.001°.
+    """The error of one axis, or of the tool tip, in one trial, in µm or 0.001°.
 
     Attributes
     ----------
     trial : Trial
     axis : str
+        Its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off.
     unit : str
         ``µm`` or ``0.001°``.
     cycles : array of int
@@ -78,11 +83,24 @@ def outcomes(machine: Machine, trials: Sequence[Trial], records: Sequence[tuple[
     """Yield the error of each axis in each trial; ``records``: of the runs without and with compensation."""
     units = {name_of(axis): "µm" if axis.unit == "mm" else "0.001°" for axis in machine.axes}
     for trial, (without, compensated) in zip(trials, records, strict=True):
+        if trial.kind == VOLUMETRIC:
+            yield from _of_tip(trial, without, compensated, [name for name, unit in units.items() if unit == "µm"])
+            continue
         for axis, cycles in trial.watched.items():
             place = trial.place(axis)
             errors = [MILLI * (record.true_position[axis] - place)[cycles] for record in (without, compensated)]
             following = MILLI * float(np.max(np.abs(compensated.following_error[axis][cycles])))
             yield Outcome(trial, axis, units[axis], cycles, errors[0], errors[1], following)
+
+
+def _of_tip(trial: Trial, without: Record, compensated: Record, linear: Sequence[str]) -> Iterator[Outcome]:
+    cycles = trial.watched[TCP]
+    errors = [MILLI * record.tip_error[cycles] for record in (without, compensated)]
+    following = MILLI * max(float(np.max(np.abs(compensated.following_error[name][cycles]))) for name in linear)
+    for place, k in enumerate("xyz"):
+        yield Outcome(trial, f"{TCP} {k}", "µm", cycles, errors[0][:, place], errors[1][:, place], following)
+    distances = [np.linalg.norm(error, axis=1) for error in errors]
+    yield Outcome(trial, TCP, "µm", cycles, distances[0], distances[1], following)
 
 
 def table(results: Sequence[Outcome]) -> str:
@@ -94,7 +112,7 @@ def table(results: Sequence[Outcome]) -> str:
         rows.append(
             (
                 result.axis,
-                LABELS[result.trial.kind],
+                label(result.trial),
                 f"{without:.2f}",
                 f"{compensated:.2f}",
                 result.unit,
@@ -110,6 +128,22 @@ def table(results: Sequence[Outcome]) -> str:
         lines.append("  ".join(cells).rstrip())
     lines.insert(1, "-" * max(len(line) for line in lines))
     return "\n".join(lines)
+
+
+def label(trial: Trial) -> str:
+    """Return what a trial is called in the table."""
+    if trial.kind == VOLUMETRIC:
+        return f"volumetric ({motion_of(trial)})"
+    return LABELS[trial.kind]
+
+
+def motion_of(trial: Trial) -> str:
+    """Return what a volumetric trial does."""
+    if len(trial.moving) > 1:
+        return "diagonal"
+    (name,) = trial.moving
+    travel = np.ptp(trial.setpoints[name].position)
+    return f"{'turn' if travel > 300.0 else 'swing'} of {name}"
 
 
 LABELS = {

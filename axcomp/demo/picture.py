@@ -1,4 +1,4 @@
-"""The demonstration's picture: one panel for each kind of compensation, and one for all of them together."""
+"""The demonstration's picture: one panel for each kind of compensation or volumetric trial, and one for all of them."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from matplotlib.lines import Line2D
 
 from ..machine import Machine
 from ..measurement.motion import Array
-from .evaluation import Outcome
-from .trials import Stage, name_of
+from .evaluation import Outcome, motion_of
+from .trials import TCP, VOLUMETRIC, Cycles, Stage, Trial, name_of
 
 WITHOUT, WITH = "#d1602b", "#1f6fa8"
 LEGEND = ((WITHOUT, "without compensation"), (WITH, "with compensation"))
@@ -27,14 +27,18 @@ def draw(path: Path, machine: Machine, results: Sequence[Outcome], cycle_time: f
     stage = Stage(machine, cycle_time)
     shown = {kind: _telling(stage, results, kind) for kind in PANELS}
     panels = {kind: outcome for kind, outcome in shown.items() if outcome is not None}
-    count = len(panels) + 1
-    columns = min(3, count)
+    volumes = {id(result.trial): result.trial for result in results if result.trial.kind == VOLUMETRIC}
+    count = len(panels) + len(volumes) + 1
+    columns = 2 if count in (2, 4) else min(3, count)
     rows = -(-count // columns)
     figure = Figure(figsize=(WIDTH, 0.6 + 4.0 * rows), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     places = list(figure.subplots(rows, columns, squeeze=False).flat)
     for ax, (kind, outcome) in zip(places, panels.items(), strict=False):
         PANELS[kind](ax, stage, outcome)
+    for ax, trial in zip(places[len(panels) :], volumes.values(), strict=False):
+        _volume(ax, [result for result in results if result.trial is trial])
+    for ax in places[: count - 1]:
         ax.grid(alpha=0.3)
     _summary(places[count - 1], results)
     for ax in places[count:]:
@@ -133,6 +137,30 @@ def _friction(ax: Axes, stage: Stage, result: Outcome) -> None:
     ax.set_title(f"Friction: {result.axis} reverses on a circle")
 
 
+def _volume(ax: Axes, results: Sequence[Outcome]) -> None:
+    """Draw the components of the error of the tool tip."""
+    x, label = _way(results[0].trial, results[0].cycles)
+    styles = dict(zip((f"{TCP} {k}" for k in "xyz"), ("o-", "s--", "^:"), strict=True))
+    for result in results:
+        if result.axis in styles:
+            for values, color in ((result.without, WITHOUT), (result.compensated, WITH)):
+                ax.plot(x, values, styles[result.axis], color=color, ms=4, lw=1.5)
+    lines = [Line2D([], [], color="0.3", marker=s[0], ls=s[1:], ms=4, label=name) for name, s in styles.items()]
+    ax.legend(handles=lines, fontsize=9, ncols=len(lines), loc="best")
+    ax.margins(y=0.2)
+    ax.set_xlabel(label)
+    ax.set_ylabel("error of the tool tip [µm]")
+    ax.set_title(f"Volumetric: {motion_of(results[0].trial)}")
+
+
+def _way(trial: Trial, cycles: Cycles) -> tuple[Array, str]:
+    """Return how far the axes have moved, and what to call it."""
+    positions = np.array([trial.setpoints[name].position[cycles] for name in trial.moving])
+    if len(positions) == 1:
+        return positions[0], f"position of {trial.moving[0]} [°]"
+    return np.linalg.norm(positions.T - positions[:, 0], axis=1), f"way along {', '.join(trial.moving)} [mm]"
+
+
 def _summary(ax: Axes, results: Sequence[Outcome]) -> None:
     for place, result in enumerate(results):
         without, compensated = result.largest
@@ -142,11 +170,15 @@ def _summary(ax: Axes, results: Sequence[Outcome]) -> None:
         ax.annotate(text, (without, place), (7, 0), textcoords="offset points", va="center", fontsize=9)
     ax.set_xscale("log")
     ax.margins(x=0.24)
-    ax.set_yticks(range(len(results)), [f"{result.axis} {result.trial.kind}" for result in results])
+    ax.set_yticks(range(len(results)), [f"{result.axis} {_short(result.trial)}" for result in results])
     ax.invert_yaxis()
     ax.set_xlabel(f"largest error [{' or '.join(sorted({result.unit for result in results}))}]")
     ax.grid(axis="x", alpha=0.3)
     ax.set_title("Largest errors, and what is left")
+
+
+def _short(trial: Trial) -> str:
+    return motion_of(trial) if trial.kind == VOLUMETRIC else trial.kind
 
 
 PANELS: dict[str, Callable[[Axes, Stage, Outcome], None]] = {

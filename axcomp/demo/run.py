@@ -19,9 +19,10 @@ from ..fmu.package import package_axcomp, package_plant
 from ..fmu.plant import read_plant
 from ..machine import Machine
 from ..measurement.motion import Array
-from .coupling import COMMANDS, COMPENSATION, PLANT, Job, read_results, write_job
+from .coupling import COMMANDS, COMPENSATION, PLANT, Job, Recorded, read_results, write_job
 from .evaluation import Outcome, Record, outcomes
-from .trials import Trial, name_of, trials_of
+from .trials import VOLUMETRIC, Trial, name_of, trials_of
+from .volume import TOOL_LENGTH, volumetric_trials
 
 PROCESSES = 2
 """That run the trials side by side."""
@@ -67,6 +68,9 @@ def demonstrate(lists: Path, output: Path) -> Demo:
         raise DemoError(f"The plant has no axis {', '.join(missing)}.")
 
     trials = trials_of(machine, CYCLE_TIME)
+    knows_tip = any(variable.name == "tcp.x" for variable in variables)
+    if knows_tip:
+        trials += volumetric_trials(machine, CYCLE_TIME)
     if not trials:
         raise DemoError(f"{lists}: no compensation acts, so there is nothing to show.")
     runs, of_trial = _runs(machine, trials)
@@ -74,7 +78,7 @@ def demonstrate(lists: Path, output: Path) -> Demo:
         folder = Path(temporary)
         for name, path in ((COMPENSATION, built.path), (PLANT, plant)):
             extract(path, folder / name)
-        records = _simulate(folder, machine, runs)
+        records = _simulate(folder, machine, runs, TOOL_LENGTH if knows_tip and machine.volumetric else None)
     pairs = [(records[without], records[compensated]) for without, compensated in of_trial]
     return Demo(machine, tuple(outcomes(machine, trials, pairs)))
 
@@ -86,7 +90,7 @@ def _runs(machine: Machine, trials: Sequence[Trial]) -> tuple[list[Run], list[tu
     of_trial = []
     for trial in trials:
         pair = []
-        for kinds in (trial.off, ()):
+        for kinds in (trial.off + trial.never_on, trial.never_on):
             key = (id(trial.setpoints), kinds)
             if key not in known:
                 known[key] = len(runs)
@@ -102,12 +106,15 @@ def _commands(machine: Machine, trial: Trial) -> Array:
 
 
 def _disabled(machine: Machine, kinds: Sequence[str]) -> tuple[str, ...]:
-    return tuple(
+    names = [
         f"{name_of(axis)}.{kind}.enable" for axis in machine.axes for kind, _ in axis.compensations() if kind in kinds
-    )
+    ]
+    if VOLUMETRIC in kinds:
+        names += [f"volumetric[{volumetric.index}].enable" for volumetric in machine.volumetric]
+    return tuple(names)
 
 
-def _simulate(folder: Path, machine: Machine, runs: Sequence[Run]) -> list[Record]:
+def _simulate(folder: Path, machine: Machine, runs: Sequence[Run], tool_length: float | None) -> list[Record]:
     """Share the runs out to processes, each of which loads both FMUs; return the records in their order."""
     shares: list[list[int]] = [[] for _ in range(min(PROCESSES, os.cpu_count() or 1, len(runs)))]
     load = [0] * len(shares)
@@ -121,7 +128,7 @@ def _simulate(folder: Path, machine: Machine, runs: Sequence[Run]) -> list[Recor
     children = []
     for number, share in enumerate(shares):
         place = folder / f"job{number}"
-        job = Job(axes, currents, CYCLE_TIME, tuple(runs[index].off for index in share))
+        job = Job(axes, currents, CYCLE_TIME, tuple(runs[index].off for index in share), tool_length)
         write_job(place, job, [runs[index].commands for index in share])
         with (place / "messages.txt").open("wb") as messages:
             command = [sys.executable, "-m", f"{__package__}.coupling", str(place)]
@@ -130,8 +137,8 @@ def _simulate(folder: Path, machine: Machine, runs: Sequence[Run]) -> list[Recor
     try:
         for number, (child, share) in enumerate(zip(children, shares, strict=True)):
             child.wait()
-            for index, (true, lag) in zip(share, _results(folder / f"job{number}"), strict=True):
-                records[index] = Record(dict(zip(axes, true.T, strict=True)), dict(zip(axes, lag.T, strict=True)))
+            for index, (true, lag, tip) in zip(share, _results(folder / f"job{number}"), strict=True):
+                records[index] = Record(dict(zip(axes, true.T, strict=True)), dict(zip(axes, lag.T, strict=True)), tip)
     finally:
         for child in children:
             child.kill()
@@ -139,7 +146,7 @@ def _simulate(folder: Path, machine: Machine, runs: Sequence[Run]) -> list[Recor
     return [record for record in records if record is not None]
 
 
-def _results(place: Path) -> list[tuple[Array, Array]]:
+def _results(place: Path) -> list[Recorded]:
     try:
         return read_results(place)
     except FileNotFoundError:

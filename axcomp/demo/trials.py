@@ -34,6 +34,9 @@ SLOW, FAST = 60.0, 260.0
 LATENCY = 2
 """Cycles by which the drives' reference, the mean of two setpoints, lags the raw setpoint in the coupled FMUs."""
 
+VOLUMETRIC = "volumetric"
+TCP = "TCP"
+
 GEOMETRIC = tuple(kind for kind in KINDS if kind != "friction")
 
 
@@ -48,17 +51,25 @@ class Trial:
     setpoints : mapping of str to Setpoints
         What the controller commands each axis, by its name.
     watched : mapping of str to array of int
-        The cycles at which the error of an axis counts.
+        The cycles at which the error of an axis counts, or that of the tool tip (``TCP``).
+    moving : tuple of str
+        The axes that a volumetric trial moves.
     """
 
     kind: str
     setpoints: Mapping[str, Setpoints]
     watched: Mapping[str, Cycles]
+    moving: tuple[str, ...] = ()
 
     @property
     def off(self) -> tuple[str, ...]:
         """The compensations that are off in the run *without*."""
         return KINDS if self.kind == "all" else (self.kind,)
+
+    @property
+    def never_on(self) -> tuple[str, ...]:
+        """Those that are off in both runs: what moves the tool tip to its place moves an axis away from its own."""
+        return () if self.kind == VOLUMETRIC else (VOLUMETRIC,)
 
     def place(self, axis: str) -> Array:
         """Return where an axis should be at the end of each cycle, shape (cycles,): its raw setpoint, delayed."""
@@ -107,7 +118,7 @@ class Stage:
             turn = APPROACH if share == 1.0 else 0.0
             course.move({name: a + share * (b - a) + turn for name, (a, b) in self.spans.items()}, RAPID)
             if not turn:
-                stops.append(_read(course))
+                stops.append(settle(course))
         watched = np.array(stops)
         setpoints = course.setpoints()
         for kind in ("leadscrew", "all"):
@@ -191,7 +202,7 @@ class Stage:
         for stop in stops:
             course.move({**stop, name: at - APPROACH}, RAPID)
             course.move({name: at}, RAPID)
-            read.append(_read(course))
+            read.append(settle(course))
         return Trial(kind, course.setpoints(), {name: np.array(read)})
 
     def _span(self, axis: Axis) -> tuple[float, float]:
@@ -206,10 +217,15 @@ class Stage:
                 return plane.start1, plane.start1 + _length1(plane)
             if plane is not None and plane.master2 == axis.number:
                 return plane.start2, plane.start2 + _length2(plane)
+        for volumetric in self.machine.volumetric:
+            letters = [letter for letter, number in volumetric.axes if number == axis.number]
+            for error in volumetric.errors:
+                if [*error.arguments] == letters:
+                    return error.nodes[0][0], error.nodes[-1][0]
         return -100.0, 100.0
 
 
-def _read(course: Course) -> int:
+def settle(course: Course) -> int:
     """Let the axes settle and return the cycle to read them in; in the one after it velocities begin to rise again."""
     return course.dwell(SETTLING) - 2
 
