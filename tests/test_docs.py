@@ -1,7 +1,9 @@
 """The documentation names what is there, and nothing that must not be named."""
 
+import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -37,3 +39,17 @@ def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
             continue
         found = forbidden.search(path.read_text(encoding="utf-8", errors="replace"))
         assert found is None, f"{name}: {found.group() if found else ''}"
+
+
+@pytest.mark.slow
+def test_the_examples_for_python_run(tmp_path: Path) -> None:
+    (tmp_path / "models").symlink_to(ROOT / "models")
+    page = (ROOT / "docs" / "hosts.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    assert len(blocks) == 3
+    build = [sys.executable, str(ROOT / "build_fmu.py")]
+    for command in (build, *([sys.executable, "-c", block] for block in blocks)):
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        result = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+        assert result.returncode == 0, result.stderr
+        assert result.stdout.strip()
