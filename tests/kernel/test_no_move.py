@@ -138,6 +138,26 @@ def test_reset_and_program_end_keep_the_position_too(event: str) -> None:
     assert run["S.setpoint_shift"].tolist() == [0.0, 0.0, 0.5, 0.5, 0.5]
 
 
+def test_it_is_over_with_the_command() -> None:
+    # the command came with NO_MOVE and has acted; the reference that is gained later comes softly, and moves the axis
+    columns = {
+        "S.cross_enable": flags(".1........."),
+        "S.no_move": flags(".1........."),
+        "M.referenced": flags("111.1111111"),
+    }
+    columns["S.cross_enable"][1:] = True
+    run = drive(Machine((Axis(1, "M"), Axis(2, "S", cross=Cross(1, (0.0,), (0.5,), N)))), columns)
+    assert run["S.cross_correction"] == pytest.approx([0.0, 0.5, 0.5, 0.0, *(0.5 * soft(np.arange(1, 8), N))])
+    assert run["S.setpoint_shift"].tolist() == [0.0] + [-0.5] * 10
+
+
+def test_the_release_of_the_axis_moves_it_whatever_no_move_says() -> None:
+    lists = Machine((Axis(1, "M"), Axis(2, "S", cross=Cross(1, (0.0,), (0.5,), N, manual_activation=True))))
+    run = drive(lists, {"S.cross_enable": True, "S.no_move": True, "S.referenced": flags("11.11")})
+    assert run["S.corrected_setpoint"].tolist() == [0.5, 0.5, 0.0, 0.0, 0.0]
+    assert run["S.setpoint_shift"].tolist() == [0.0] * 5
+
+
 def test_the_loss_of_a_reference_is_no_command() -> None:
     run = drive(machine(), {"M.referenced": flags("1.."), "S.no_move": True})
     assert run["S.setpoint_shift"].tolist() == [0.0, 0.0, 0.0]
