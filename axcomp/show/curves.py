@@ -216,14 +216,14 @@ class CurvesDifference:
 
 def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-", hollow: bool = False) -> Axes:
     """Draw curves with their points into ``ax``; return it."""
-    # The later ones thinner: where two lie upon each other both are seen.
+    # Of two the second is thinner: where they lie upon each other both are seen.
     for place, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
         ax.plot(
             line.x,
             line.y,
             style,
             color=colour,
-            lw=2.2 if place == 0 and len(curves.lines) > 1 else 1.4,
+            lw=2.2 if place == 0 and len(curves.lines) == 2 else 1.4,
             marker=marker if len(line.x) <= MARKED_MAX else None,
             ms=4.5 if len(line.x) <= MARKED_MAX // 3 else 3.0,
             markerfacecolor="white" if hollow else colour,

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 LONGEST = 0.9
 """Length of the longest arrow, in mean distances of neighbouring places."""
+ROUNDING = 1e-6
+"""µm that the arithmetic of the model may leave."""
 FLATTEST = 0.35
 """Least height of the picture's box in its longest side: flat volumes are drawn higher."""
 
@@ -49,6 +51,11 @@ class Field:
         sizes: Array = np.linalg.norm(self.vectors, axis=1)
         return sizes
 
+    def largest(self) -> float:
+        """Return the length of the longest vector, µm; 0 where there is nothing but rounding."""
+        largest = float(self.sizes().max())
+        return largest if largest > ROUNDING else 0.0
+
     def figure(self) -> Figure:
         """Return the arrows, much enlarged, coloured by their size."""
         figure = new_figure(1.3)
@@ -69,7 +76,11 @@ class Field:
     def summary(self) -> tuple[str, str, str]:
         """Return the number of places, their ranges, and that of the sizes."""
         ranges = "; ".join(span(side.tolist(), "mm") for side in self.places.T)
-        return f"{len(self.places)} places", ranges, span(np.round(self.sizes(), 4).tolist(), "µm")
+        return (
+            f"{len(self.places)} place{'s'[: len(self.places) - 1]}",
+            ranges,
+            span(np.round(self.sizes(), 4).tolist(), "µm"),
+        )
 
     def against(self, other: Content) -> Field:
         """Return other − this one; both must be at the same places."""
@@ -80,15 +91,14 @@ class Field:
 
 def plot_field(ax: Axes3D, field: Field) -> Axes3D:
     """Draw the arrows into a three-dimensional ``ax``; return it."""
-    sizes = field.sizes()
-    largest = float(sizes.max()) or 1.0
-    scale = LONGEST * _distance(field.places) / largest
-    mappable = ScalarMappable(Normalize(0.0, largest), sequential())
-    shafts = mappable.to_rgba(sizes)
+    largest = field.largest()
+    scale = float(f"{LONGEST * _distance(field.places) / largest:.2g}") if largest else 0.0
+    mappable = ScalarMappable(Normalize(0.0, largest or 1.0), sequential())
     # The collection holds all shafts, then all left and all right strokes of the heads.
-    colours = np.tile(shafts, (3, 1))
+    colours = np.tile(mappable.to_rgba(field.sizes()), (3, 1))
     arrows = scale * field.vectors
-    ax.quiver(*field.places.T, *arrows.T, colors=colours, lw=2.4, arrow_length_ratio=0.35).set_clip_on(False)
+    if largest:
+        ax.quiver(*field.places.T, *arrows.T, colors=colours, lw=2.4, arrow_length_ratio=0.35).set_clip_on(False)
     ax.scatter(*field.places.T, s=7, color="0.45", depthshade=False)
     ends = np.concatenate([field.places, field.places + arrows])
     for limits, side in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), ends.T, strict=True):
@@ -99,8 +109,8 @@ def plot_field(ax: Axes3D, field: Field) -> Axes3D:
         label(f"{name} [mm]", fontsize=11, labelpad=8)
     ax.view_init(elev=22.0, azim=-60.0)
     note = f" ({field.note})" if field.note else ""
-    title = f"{field.subject.title}{note}: up to {largest:.1f} µm, drawn {scale * 1e3:,.0f} times as large"
-    ax.set_title(printed(title), fontsize=12)
+    size = f"up to {largest:.1f} µm, drawn {scale * 1e3:,.0f} times as large" if largest else "none at these places"
+    ax.set_title(printed(f"{field.subject.title}{note}: {size}"), fontsize=12)
     ax.figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
     return ax
 

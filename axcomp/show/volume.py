@@ -28,6 +28,8 @@ SAMPLES = 41
 """Places along each side of a map."""
 ARROWS = 4
 """Arrows along each side of the work volume."""
+TURNED = 73
+"""Places of a rotary axis at which the TCP error is taken."""
 
 
 class ErrorModel:
@@ -75,39 +77,81 @@ def volumetric_contents(machine: Machine, axis: str | None = None, tool_length: 
     """
     found: list[Content] = []
     for volumetric in machine.volumetric:
-        names = {letter: machine.axes[machine.index_of(number)].name for letter, number in volumetric.axes}
+        names = _names(machine, volumetric)
         model = ErrorModel(machine, volumetric)
         for letter in LETTERS:
             if letter in names and axis in {None, names[letter]}:
                 found += _errors_of_axis(volumetric, model, letter, names)
         if axis is None:
             found += _constants(volumetric)
-            found.append(tcp_field(volumetric, model, tool_length))
+            field = tcp_field(machine, volumetric, model, tool_length)
+            turning = [a for a in ROTARY if any(a in table.arguments for table in volumetric.errors)]
+            if field.largest() > 0.0 or not turning:
+                found.append(field)
+            found += [tcp_curves(machine, volumetric, model, letter, tool_length) for letter in turning]
     return found
 
 
-def range_of(volumetric: Volumetric, letter: str) -> tuple[float, float]:
-    """Return the least and the largest position of an axis in the error tables, (0, 0) where it is in none."""
-    places = [
-        node[table.arguments.index(letter)]
-        for table in volumetric.errors
-        if letter in table.arguments
-        for node in table.nodes
-    ]
-    return (min(places), max(places)) if places else (0.0, 0.0)
+def work_volume(machine: Machine, volumetric: Volumetric) -> dict[str, tuple[float, float]]:
+    """Return the least and the largest position of each axis of a compensation, by letter, in mm or °.
+
+    They are those of all error tables of the machine, for a compensation of the rotary axes has none over X, Y and Z;
+    (0, 0) for an axis that is in no table.
+    """
+    places: dict[int, list[float]] = {}
+    for one in machine.volumetric:
+        numbers = dict(one.axes)
+        for table in one.errors:
+            for column, letter in enumerate(table.arguments):
+                places.setdefault(numbers[letter], []).extend(node[column] for node in table.nodes)
+    found = {letter: places.get(number, [0.0]) for letter, number in volumetric.axes}
+    return {letter: (min(positions), max(positions)) for letter, positions in found.items()}
 
 
-def tcp_field(volumetric: Volumetric, model: ErrorModel, tool_length: float = 0.0) -> Field:
+def tcp_field(machine: Machine, volumetric: Volumetric, model: ErrorModel, tool_length: float = 0.0) -> Field:
     """Return the TCP error at a grid of places in the work volume, the rotary axes at 0 or as near as they get."""
+    ranges = work_volume(machine, volumetric)
     sides = []
     for letter in LINEAR:
-        low, high = range_of(volumetric, letter)
+        low, high = ranges.get(letter, (0.0, 0.0))
         sides.append(np.linspace(low, high, ARROWS) if high > low else np.array([low]))
     grid = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, len(LINEAR))
-    rotary = [float(np.clip(0.0, *range_of(volumetric, letter))) for letter in ROTARY]
+    rotary = [float(np.clip(0.0, *ranges.get(letter, (0.0, 0.0)))) for letter in ROTARY]
     errors = np.array([model.tcp_error([*place, *rotary], tool_length) for place in grid.tolist()])
-    tool = f"tool length {tool_length:g} mm" if tool_length else ""
-    return Field(Subject(str(volumetric.index), "volumetric", "TCP error"), grid, MICRO[False][0] * errors, tool)
+    subject = Subject(str(volumetric.index), "volumetric", "TCP error")
+    return Field(subject, grid, MICRO[False][0] * errors, _tool(tool_length))
+
+
+def tcp_curves(
+    machine: Machine, volumetric: Volumetric, model: ErrorModel, letter: str, tool_length: float = 0.0
+) -> Curves:
+    """Return the TCP error while a rotary axis turns, the linear axes in the middle of the work volume."""
+    ranges = work_volume(machine, volumetric)
+    names = _names(machine, volumetric)
+    place = [0.5 * sum(ranges.get(linear, (0.0, 0.0))) for linear in LINEAR]
+    place += [float(np.clip(0.0, *ranges.get(rotary, (0.0, 0.0)))) for rotary in ROTARY]
+    turned = np.linspace(*ranges[letter], TURNED)
+    errors = []
+    for position in turned.tolist():
+        place[LETTERS.index(letter)] = position
+        errors.append(model.tcp_error(place, tool_length))
+    values = MICRO[False][0] * np.array(errors)
+    where = ", ".join(f"{names.get(linear, linear)} = {place[d]:g}" for d, linear in enumerate(LINEAR))
+    return Curves(
+        Subject(str(volumetric.index), "volumetric", f"TCP error over {names[letter]}"),
+        _position(letter, names),
+        Quantity("TCP error, actual − nominal", "µm"),
+        tuple(Line(f"along {linear}", turned, values[:, d]) for d, linear in enumerate(LINEAR)),
+        note=", ".join(word for word in (where, _tool(tool_length)) if word),
+    )
+
+
+def _tool(length: float) -> str:
+    return f"tool length {length:g} mm" if length else ""
+
+
+def _names(machine: Machine, volumetric: Volumetric) -> dict[str, str]:
+    return {letter: machine.axes[machine.index_of(number)].name for letter, number in volumetric.axes}
 
 
 def _errors_of_axis(volumetric: Volumetric, model: ErrorModel, letter: str, names: dict[str, str]) -> list[Content]:

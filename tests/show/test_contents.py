@@ -17,6 +17,7 @@ from axcomp.show.curves import Curves, Line
 from axcomp.show.field import Field
 from axcomp.show.maps import Map
 from axcomp.show.volume import ErrorModel, volumetric_contents
+from axcomp.volumetric import Volumetric
 
 
 def _content(machine: Machine, axis: str, kind: str) -> Any:
@@ -169,6 +170,29 @@ def test_the_field_covers_the_work_volume_that_was_measured() -> None:
     assert np.ptp(field.places, axis=0).tolist() == [200.0, 100.0, 200.0]
     size = np.array(field.records().rows)
     assert np.allclose(size[:, 6], np.linalg.norm(size[:, 3:6], axis=1))
+
+
+def test_a_table_with_its_axis_displaced_swings_once_a_turn() -> None:
+    """Workpiece on C, EXC = 10 µm: the tip is displaced by −Rot(−q)·(10, 0, 0) in the workpiece."""
+    axes = (*((letter, number) for number, letter in enumerate("XYZC", 1)),)
+    errors = (table("EXC", "C", [0.0, 360.0], [0.01, 0.01]), table("EXX", "X", [0.0, 400.0], [0.0, 0.0]))
+    turning = Volumetric(1, axes, "CXYZ", 1, errors)
+    machine = Machine(tuple(Axis(number, letter) for letter, number in axes), (turning,))
+    curves = volumetric_contents(machine)[-1]
+    assert isinstance(curves, Curves)
+    assert curves.subject.part == "TCP error over C"
+    assert curves.note == "X = 200, Y = 0, Z = 0"
+    q, along_x, along_y, along_z = np.array(curves.records().rows).T
+    assert np.allclose(along_x, -10.0 * np.cos(np.radians(q)), atol=1e-9)
+    assert np.allclose(along_y, 10.0 * np.sin(np.radians(q)), atol=1e-9)
+    assert np.allclose(along_z, 0.0, atol=1e-9)
+
+
+def test_a_field_without_errors_is_drawn_without_arrows() -> None:
+    field = Field(Subject("0", "volumetric"), np.zeros((2, 3)), np.full((2, 3), 1e-9))
+    assert field.largest() == 0.0
+    [ax, _] = field.figure().axes
+    assert ax.get_title().endswith("none at these places")
 
 
 def test_a_machine_does_not_differ_from_itself() -> None:
