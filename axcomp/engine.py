@@ -182,7 +182,8 @@ class Engine:
         return values
 
     def _record(self, variable: Variable) -> Any:
-        return record_of(variable, variable.axis, self.runtime.inputs, self.runtime.outputs)
+        records = (self.runtime.inputs, self.runtime.outputs)
+        return record_of(variable, variable.axis, *records, volumetric=variable.volumetric)
 
     def _input(self, name: str) -> Variable:
         variable = self._by_name.get(name)
@@ -192,17 +193,23 @@ class Engine:
         return variable
 
     def _output_groups(self) -> list[_OutputGroup]:
-        """Return the outputs axis by axis, so that one call reads all of an axis."""
-        groups = []
-        for index in range(len(self.machine.axes)):
-            variables = [variable for variable in self._outputs if variable.axis == index]
-            read = attrgetter(*(variable.field for variable in variables))
-            groups.append(_OutputGroup(partial(read, self._record(variables[0])), variables))
-        return groups
+        """Return the outputs record by record, so that one call reads all of an axis."""
+        by_record: dict[int, list[Variable]] = {}
+        for variable in self._outputs:
+            by_record.setdefault(id(self._record(variable)), []).append(variable)
+        return [_OutputGroup(self._reader(variables), variables) for variables in by_record.values()]
+
+    def _reader(self, variables: Sequence[Variable]) -> Callable[[], tuple[Value, ...]]:
+        """Return a function that reads the fields of one record, which is never a bare value but a tuple."""
+        record = self._record(variables[0])
+        if len(variables) == 1:
+            field = variables[0].field
+            return lambda: (getattr(record, field),)
+        return partial(attrgetter(*(variable.field for variable in variables)), record)
 
 
 class _OutputGroup(NamedTuple):
-    """The outputs of one axis: ``read()`` returns their values."""
+    """The outputs of one record: ``read()`` returns their values."""
 
     read: Callable[[], tuple[Value, ...]]
     variables: list[Variable]

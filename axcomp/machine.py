@@ -11,7 +11,7 @@ import enum
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from .volumetric import Volumetric
+from .volumetric import LINEAR, Volumetric
 
 AXES_MAX = 32
 """Compensation lists a start-up list can name (P-STUP-00016), and so the axes of a machine."""
@@ -348,6 +348,13 @@ class Machine:
             if axis.name == name:
                 return axis
         raise KeyError(name)
+
+    def corrected_by(self, volumetric: Volumetric) -> frozenset[int]:
+        """Return the numbers of the axes that a volumetric compensation corrects: X, Y, Z and their gantry slaves."""
+        assigned = {number for _, number in volumetric.axes}
+        leaders = {number for letter, number in volumetric.axes if letter in LINEAR}
+        slaves = {axis.number for axis in self.axes if axis.gantry_master in leaders and axis.number not in assigned}
+        return frozenset(leaders | slaves)
 
     def __repr__(self) -> str:
         return "Machine(\n" + "".join(f"  {part!r},\n" for part in (*self.axes, *self.volumetric)) + ")"

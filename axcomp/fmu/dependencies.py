@@ -6,14 +6,32 @@ An output changes only if one of these inputs changes (or time goes on, or a tab
 from __future__ import annotations
 
 from ..machine import Axis, Crosstalk, Machine
+from ..volumetric import Volumetric
 
 Input = tuple[int | None, str]
 """Place of the axis in the machine (None: of the whole machine) and name of the input."""
 
 Inputs = frozenset[Input]
 
+COMMANDS_OF_VOLUMETRIC = ("enable", "no_move", "factor_x", "factor_y", "factor_z")
+
 SETPOINT_KINDS = ("cross", "plane", "crosstalk", "leadscrew")
 COMMANDS = ((None, "reset"), (None, "program_end"), (None, "reload"))
+
+
+def volumetric_input(volumetric: Volumetric, name: str) -> str:
+    """Return what an input of a volumetric compensation is called among those of the machine."""
+    return f"volumetric[{volumetric.index}].{name}"
+
+
+def volumetric_switch(machine: Machine, volumetric: Volumetric) -> Inputs:
+    """Return what decides whether a volumetric compensation is on: s_limit makes it depend on its corrections."""
+    assigned = {number for _, number in volumetric.axes}
+    members = assigned | machine.corrected_by(volumetric)
+    places = [place for place, axis in enumerate(machine.axes) if axis.number in members]
+    own: list[Input] = [(place, name) for place in places for name in ("setpoint", "referenced", "fault")]
+    own += [(None, volumetric_input(volumetric, name)) for name in COMMANDS_OF_VOLUMETRIC]
+    return frozenset(own).union(((None, "tool_length"), *COMMANDS))
 
 
 class Dependencies:
@@ -26,6 +44,8 @@ class Dependencies:
 
     def of(self, output: str) -> Inputs:
         """Return the inputs that the output called ``output`` (``corrected_setpoint``, ``cross.active`` …) needs."""
+        if output in ("stop_request", "volumetric.correction"):
+            return self._volumetric()
         kind, _, quantity = output.rpartition(".")
         if quantity == "active":
             return self._switch(kind)
@@ -34,7 +54,8 @@ class Dependencies:
         if output == "current":
             return self._switch("friction") | self._own("setpoint", "velocity", "acceleration")
         if output == "error":
-            return self._own("setpoint", "velocity", "acceleration", "actual_position").union(COMMANDS)
+            own = self._own("setpoint", "velocity", "acceleration", "actual_position").union(COMMANDS)
+            return own | self._volumetric()
         correction = self._all_corrections()
         if output == "corrected_setpoint":
             return correction | self._own("setpoint")
@@ -43,7 +64,12 @@ class Dependencies:
         return correction
 
     def _all_corrections(self) -> Inputs:
-        return self._corrections(tuple(kind for kind in SETPOINT_KINDS if getattr(self.axis, kind) is not None))
+        kinds = tuple(kind for kind in SETPOINT_KINDS if getattr(self.axis, kind) is not None)
+        return self._corrections(kinds) | self._volumetric()
+
+    def _volumetric(self) -> Inputs:
+        found = [one for one in self.machine.volumetric if self.axis.number in self.machine.corrected_by(one)]
+        return frozenset[Input]().union(*(volumetric_switch(self.machine, one) for one in found))
 
     def _corrections(self, kinds: tuple[str, ...]) -> Inputs:
         return frozenset[Input]().union(*(self._switch(kind) | self._value(kind) for kind in kinds))

@@ -10,6 +10,12 @@ from ..kernel.records import (
     ERROR_PLANE_POINTS,
     ERROR_UPDATE,
 )
+from ..kernel.volumetric_records import (
+    ERROR_LIMIT_EXCEEDED,
+    ERROR_LIMIT_UNDEFINED,
+    ERROR_PROGRAM_END,
+    ERROR_SINGULAR,
+)
 
 POINTS_ERRORS = {
     "leadscrew": ERROR_LEADSCREW_POINTS,
@@ -24,6 +30,10 @@ ERRORS = {
     ERROR_INPUT: "An input of the axis is not a finite number; its outputs are held",
     ERROR_UPDATE: "The lists read by `reload` are refused, the old ones stay in force; the log says why",
     ERROR_CALL: "A call of the FMU could not be carried out; the log says why",
+    ERROR_LIMIT_UNDEFINED: "A volumetric compensation cannot be switched on: the axis has no s_limit (P-AXIS-00525)",
+    ERROR_LIMIT_EXCEEDED: "A volumetric correction was above the axis' s_limit; it is held, the compensation is off",
+    ERROR_SINGULAR: "X, Y and Z cannot move the tool in three directions here; a volumetric compensation is off",
+    ERROR_PROGRAM_END: "The program ended while a volumetric compensation of its channel was on; it is off",
     **{
         number: f"`reload` changes max_points of the {kind} compensation; the axis keeps its old lists"
         for kind, number in POINTS_ERRORS.items()

@@ -113,7 +113,8 @@ class Instance:
         """Go on with a runtime: note where the value of each reference stands, a record and the name of its field."""
         self.runtime = runtime
         records = (runtime.inputs, runtime.outputs, self.controls)
-        for reference, declaration, record in every_place(len(runtime.machine.axes), *records):
+        count = len(runtime.inputs.volumetric)
+        for reference, declaration, record in every_place(len(runtime.machine.axes), *records, volumetrics=count):
             name = TYPE_NAMES[type(declaration.start)]
             self._readable[name][reference] = (record, declaration.field)
             if declaration.causality != "output":

@@ -8,7 +8,16 @@ from ..machine import KINDS
 from ..places import models
 from .errors import ERRORS
 from .variable import BLOCK, TYPE_NAMES
-from .variables import AXIS_BLOCK, AXIS_DECLARATIONS, MACHINE_BLOCK, OF_MACHINE, Declaration
+from .variables import (
+    AXIS_BLOCK,
+    AXIS_DECLARATIONS,
+    MACHINE_BLOCK,
+    OF_MACHINE,
+    OF_VOLUMETRIC,
+    VOLUMETRIC,
+    VOLUMETRIC_BLOCK,
+    Declaration,
+)
 
 PAGE = models().parent / "docs" / "fmu-reference.md"
 
@@ -22,7 +31,8 @@ Only what is configured appears. Units are those of the axis: mm or deg, mm/s or
 its factor to SI units, so that tools convert. With `--naming flat` every `.` is a `_`.
 
 A value reference is `{block} · block + identifier`, the same in every FMU: block {machine} is the machine's, block
-{axis} + i that of axis i = 0 … 31 in the order of the lists.
+{axis} + i that of axis i = 0 … 31 in the order of the lists, block {volumetric} + j that of volumetric compensation
+j = 0 … 4.
 """
 
 STEPS = """\
@@ -61,8 +71,10 @@ pythonfmu's own library fails when the FMU is unpacked under a path with one of 
 
 def reference_page() -> str:
     """Return the page as Markdown."""
-    head = HEAD.format(block=BLOCK, machine=MACHINE_BLOCK, axis=AXIS_BLOCK)
+    head = HEAD.format(block=BLOCK, machine=MACHINE_BLOCK, axis=AXIS_BLOCK, volumetric=VOLUMETRIC_BLOCK)
     machine = _table(OF_MACHINE, "")
+    volumetric = _table([d for d in AXIS_DECLARATIONS if d.kind == VOLUMETRIC], "NAME.")
+    volumetrics = _table(OF_VOLUMETRIC, "volumetric[j].")
     axis = _table([d for d in AXIS_DECLARATIONS if not d.kind], "NAME.")
     kinds = "\n".join(
         f"\n### With {kind} compensation\n\n" + _table([d for d in AXIS_DECLARATIONS if d.kind == kind], "NAME.")
@@ -70,6 +82,8 @@ def reference_page() -> str:
     )
     errors = "\n".join(f"| {number} | {meaning} |" for number, meaning in ERRORS.items())
     tables = f"## Of the machine\n\n{machine}\n\n## Of every axis\n\n{axis}\n{kinds}\n"
+    tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves\n\n{volumetric}\n"
+    tables += f"\n## Of every volumetric compensation\n\n{volumetrics}\n"
     return f"{head}\n{tables}\n{STEPS}{errors}\n{LIMITS}"
 
 

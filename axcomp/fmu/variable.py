@@ -41,6 +41,8 @@ class Variable:
         Place of its axis in the machine; None: it belongs to no axis.
     field : str
         Its field in the record of its block (see ``variables.record_of``).
+    volumetric : int or None
+        Number of its volumetric compensation; None: it belongs to none.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Variable:
     depends_on: tuple[str, ...] | None = ()
     axis: int | None = None
     field: str = ""
+    volumetric: int | None = None
 
     @property
     def type(self) -> str:

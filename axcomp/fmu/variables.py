@@ -12,22 +12,27 @@ from typing import Any, Literal, NamedTuple
 
 from ..compile import CYCLE_TIME
 from ..kernel.records import Inputs, Outputs
-from ..machine import KINDS, Axis, Machine
-from .dependencies import Dependencies, Input
+from ..machine import AXES_MAX, KINDS, Axis, Machine
+from ..volumetric import COMPENSATIONS_MAX, Volumetric
+from .dependencies import Dependencies, Input, volumetric_input, volumetric_switch
 from .variable import BLOCK, Causality, Value, Variability, Variable
 
 Naming = Literal["structured", "flat"]
 """``X.leadscrew.correction`` or ``X_leadscrew_correction``."""
 
 MACHINE_BLOCK = 0
-AXIS_BLOCK = 1  # … 32; the next blocks are free
+AXIS_BLOCK = 1  # … 32
+VOLUMETRIC_BLOCK = AXIS_BLOCK + AXES_MAX  # … 37; the next blocks are free
+
+VOLUMETRIC = "volumetric"
+"""Kind of what appears only where there are volumetric compensations."""
 
 POSITION, VELOCITY, ACCELERATION = "{}", "{}/s", "{}/s2"
 """Units of an axis' quantities; {} stands for mm or deg."""
 
 
 class Declaration(NamedTuple):
-    """A variable of the machine or of every axis.
+    """A variable of the machine, of every axis, or of every volumetric compensation.
 
     ``kind``: it appears only where this compensation is configured; "": always. ``variability``: where it is not the
     usual one of its type.
@@ -72,6 +77,7 @@ OF_MACHINE = (
     Declaration(
         4, "cycle_time", "parameter", CYCLE_TIME, "Cycle time of the position controller", "s", variability="fixed"
     ),
+    Declaration(5, "tool_length", "input", 0.0, "Length of the tool along its orientation (N0*)", "mm", VOLUMETRIC),
 )
 
 OF_AXIS = (
@@ -88,6 +94,18 @@ OF_AXIS = (
     Declaration(11, "setpoint_shift", "output", 0.0, "Offset that keeps the setpoint continuous (no_move)", POSITION),
     Declaration(12, "error", "output", 0, "0, or the number of an error that stays until reset"),
     Declaration(13, "current", "output", 0.0, "Additional motor current, in the drive's own unit", kind="friction"),
+    Declaration(14, "stop_request", "output", False, "The axis is to stop: s_limit was exceeded", kind=VOLUMETRIC),
+    Declaration(15, "volumetric.correction", "output", 0.0, "Sum of all volumetric corrections", POSITION, VOLUMETRIC),
+)
+
+OF_VOLUMETRIC = (
+    Declaration(0, "enable", "input", True, "Command of the volumetric compensation: on or off"),
+    Declaration(1, "no_move", "input", False, "What is switched now moves no axis: its value becomes setpoint_shift"),
+    *(
+        Declaration(2 + i, f"factor_{letter}", "input", 1.0, f"Share of the correction of {letter.upper()} from now on")
+        for i, letter in enumerate("xyz")
+    ),
+    Declaration(5, "active", "output", False, "The volumetric compensation acts at least partly"),
 )
 
 KIND_IDENTIFIERS = {"cross": 16, "plane": 20, "crosstalk": 24, "leadscrew": 28, "friction": 32}
@@ -124,17 +142,24 @@ def variables_of(
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
     every_axis = list(enumerate(zip(machine.axes, _prefixes(machine, naming), strict=True)))
-    inputs: dict[Input, str] = {(None, d.name): d.name for d in OF_MACHINE if d.causality == "input"}
+    of_machine = [d for d in OF_MACHINE if d.kind != VOLUMETRIC or machine.volumetric]
+    inputs: dict[Input, str] = {(None, d.name): d.name for d in of_machine if d.causality == "input"}
     inputs.update(
         ((index, d.name), _name(prefix, d, naming))
         for index, (axis, prefix) in every_axis
-        for d in _present(axis)
+        for d in _present(machine, axis)
         if d.causality == "input"
     )
-    variables = [_variable(d, d.name, MACHINE_BLOCK, starts.get(d.name, d.start)) for d in OF_MACHINE]
+    inputs.update(
+        ((None, volumetric_input(one, d.name)), _name(_volumetric_prefix(one.index, naming), d, naming))
+        for one in machine.volumetric
+        for d in OF_VOLUMETRIC
+        if d.causality == "input"
+    )
+    variables = [_variable(d, d.name, MACHINE_BLOCK, starts.get(d.name, d.start)) for d in of_machine]
     for index, (axis, prefix) in every_axis:
         dependencies = Dependencies(machine, index)
-        for d in _present(axis):
+        for d in _present(machine, axis):
             needed = dependencies.of(d.name) if d.causality == "output" else frozenset()
             variables.append(
                 _variable(
@@ -147,39 +172,74 @@ def variables_of(
                     index,
                 )
             )
+    for one in machine.volumetric:
+        variables += _of_volumetric(machine, one, inputs, naming)
     return tuple(variables)
 
 
-def record_of(declared: Declaration | Variable, axis: int | None, *records: Inputs | Outputs | Controls) -> Any:
+def _of_volumetric(
+    machine: Machine, volumetric: Volumetric, inputs: dict[Input, str], naming: Naming
+) -> Iterator[Variable]:
+    """Yield the variables of a volumetric compensation."""
+    needed = volumetric_switch(machine, volumetric)
+    for d in OF_VOLUMETRIC:
+        yield _variable(
+            d,
+            _name(_volumetric_prefix(volumetric.index, naming), d, naming),
+            VOLUMETRIC_BLOCK + volumetric.index,
+            not volumetric.manual_activation if d.name == "enable" else d.start,
+            depends_on=tuple(name for key, name in inputs.items() if key in needed and d.causality == "output"),
+            volumetric=volumetric.index,
+        )
+
+
+def record_of(
+    declared: Declaration | Variable,
+    axis: int | None,
+    *records: Inputs | Outputs | Controls,
+    volumetric: int | None = None,
+) -> Any:
     """Return the record that holds the field of a variable; ``axis``: place of its axis, None: of no axis.
 
     ``records`` are those to look in: ``Inputs`` and ``Outputs``, and ``Controls`` where there are some. None: in none.
+    ``volumetric``: place of its volumetric compensation, None: of none.
     """
     for record in records:
-        if axis is None:
-            candidate: object = record
-        elif isinstance(record, Inputs if declared.causality == "input" else Outputs):
-            candidate = record.axis[axis]
-        else:
-            continue
+        candidate: object = record
+        if axis is not None or volumetric is not None:
+            if not isinstance(record, Inputs if declared.causality == "input" else Outputs):
+                continue
+            candidate = record.axis[axis] if axis is not None else record.volumetric[volumetric or 0]
         if hasattr(candidate, declared.field):
             return candidate
     return None
 
 
-def every_place(axis_count: int, *records: Inputs | Outputs | Controls) -> Iterator[tuple[int, Declaration, Any]]:
-    """Yield reference, declaration and record of every variable that ``axis_count`` axes can have."""
+def every_place(
+    axis_count: int, *records: Inputs | Outputs | Controls, volumetrics: int = 0
+) -> Iterator[tuple[int, Declaration, Any]]:
+    """Yield reference, declaration and record of every variable that so many axes and compensations can have."""
     for declaration in OF_MACHINE:
         yield BLOCK * MACHINE_BLOCK + declaration.identifier, declaration, record_of(declaration, None, *records)
     for index in range(axis_count):
         for declaration in AXIS_DECLARATIONS:
             reference = BLOCK * (AXIS_BLOCK + index) + declaration.identifier
             yield reference, declaration, record_of(declaration, index, *records)
+    for index in range(volumetrics):
+        for declaration in OF_VOLUMETRIC:
+            reference = BLOCK * (VOLUMETRIC_BLOCK + index) + declaration.identifier
+            yield reference, declaration, record_of(declaration, None, *records, volumetric=index)
 
 
-def _present(axis: Axis) -> Iterator[Declaration]:
+def _present(machine: Machine, axis: Axis) -> Iterator[Declaration]:
     kinds = {"", *(kind for kind, _ in axis.compensations())}
+    if any(axis.number in machine.corrected_by(one) for one in machine.volumetric):
+        kinds.add(VOLUMETRIC)
     return (declaration for declaration in AXIS_DECLARATIONS if declaration.kind in kinds)
+
+
+def _volumetric_prefix(index: int, naming: Naming) -> str:
+    return f"volumetric[{index}]" if naming == "structured" else f"volumetric_{index}"
 
 
 def _start(declaration: Declaration, axis: Axis) -> Value:
@@ -197,6 +257,7 @@ def _variable(
     unit: str | None = None,
     depends_on: tuple[str, ...] = (),
     axis: int | None = None,
+    volumetric: int | None = None,
 ) -> Variable:
     return Variable(
         name,
@@ -209,6 +270,7 @@ def _variable(
         depends_on,
         axis,
         declaration.field,
+        volumetric,
     )
 
 
@@ -220,6 +282,8 @@ def _prefixes(machine: Machine, naming: Naming) -> list[str]:
     """Return the axes' names as identifiers, so that no two variables get the same name."""
     prefixes: list[str] = []
     taken = {declaration.name for declaration in OF_MACHINE}
+    for index in range(COMPENSATIONS_MAX):
+        taken.update(_name(_volumetric_prefix(index, naming), d, naming) for d in OF_VOLUMETRIC)
     for axis in machine.axes:
         wanted = identifier(axis.name) or f"axis{axis.number}"
         prefix, count = wanted, 1

@@ -18,5 +18,6 @@ def set_initial_inputs(tables: Tables, inputs: Inputs) -> None:
         given.friction_enable = table.friction.switching.configured and not table.friction.switching.manual
     for k in range(tables.volumetrics):
         inputs.volumetric[k].enable = tables.volumetric[k].configured and not tables.volumetric[k].manual
-        for d in range(3):
-            inputs.volumetric[k].factor[d] = 1.0
+        inputs.volumetric[k].factor_x = 1.0
+        inputs.volumetric[k].factor_y = 1.0
+        inputs.volumetric[k].factor_z = 1.0

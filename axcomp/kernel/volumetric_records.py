@@ -103,7 +103,9 @@ class VolumetricInputs:
 
     enable: bool
     no_move: bool
-    factor: Annotated[list[float], LINEAR]  # CFACT of X, Y, Z, 0 … 1; it counts when the compensation is switched on
+    factor_x: float  # CFACT_X, 0 … 1; factors count when the compensation is switched on
+    factor_y: float
+    factor_z: float
 
 
 @dataclass(slots=True)

@@ -117,7 +117,7 @@ def switch_on(table: VolumetricTable, volumetric: VolumetricState, given: Volume
     volumetric.on = True
     for d in range(LINEAR):
         volumetric.taking_part[d] = True
-        volumetric.factor[d] = table.sign[d] * share(given.factor[d])
+        volumetric.factor[d] = signed_factor(table, given, d)
     for m in range(table.members):
         state.axis[table.member[m]].stop_request = False
     if not volumetric.started:
@@ -130,17 +130,22 @@ def switch_on(table: VolumetricTable, volumetric: VolumetricState, given: Volume
         release_shifts(table, volumetric)
 
 
-def share(factor: float) -> float:
-    """Return a CFACT within 0 … 1; what is no number counts as 0."""
+def signed_factor(table: VolumetricTable, given: VolumetricInputs, letter: int) -> float:
+    """Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0."""
+    factor = given.factor_x
+    if letter == 1:
+        factor = given.factor_y
+    elif letter == LINEAR - 1:
+        factor = given.factor_z
     if factor >= 0.0:
-        return min(factor, 1.0)
+        return table.sign[letter] * min(factor, 1.0)
     return 0.0
 
 
 def can_turn_round(table: VolumetricTable, volumetric: VolumetricState, given: VolumetricInputs) -> bool:
     """Tell whether a compensation that is running down can go up again; else it has to be down before."""
     for d in range(LINEAR):
-        if not volumetric.taking_part[d] or volumetric.factor[d] != table.sign[d] * share(given.factor[d]):
+        if not volumetric.taking_part[d] or volumetric.factor[d] != signed_factor(table, given, d):
             return False
     return True
 

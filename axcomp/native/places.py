@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..fmu.variable import BLOCK, TYPE_NAMES
-from ..fmu.variables import Controls, every_place
+from ..fmu.variables import AXIS_BLOCK, MACHINE_BLOCK, VOLUMETRIC_BLOCK, Controls, every_place
 from ..kernel.record import zero
 from ..kernel.records import AxisTable, Inputs, Outputs, State
 from ..kernel.volumetric_records import VolumetricTable
 from .layout import ctypes_of
 
 GENERATED = "/* Generated from axcomp/fmu/variables.py by `python -m axcomp.native`; do not edit. */"
-TABLES = {"MACHINE_PLACES": 0, "AXIS_PLACES": 1, "VOLUMETRIC_PLACES": 33}
+TABLES = {"MACHINE_PLACES": MACHINE_BLOCK, "AXIS_PLACES": AXIS_BLOCK, "VOLUMETRIC_PLACES": VOLUMETRIC_BLOCK}
 """Table of places → block of value references that it describes (the first of its kind)."""
 
 NO_PLACE = "    {0, 0, 0}"
@@ -67,7 +67,7 @@ def _places() -> Iterator[tuple[int, str]]:
         id(inputs.volumetric[0]): ("VolumetricInputs", ""),
         id(outputs.volumetric[0]): ("VolumetricOutputs", ""),
     }
-    for reference, declaration, record in every_place(1, inputs, outputs, controls):
+    for reference, declaration, record in every_place(1, inputs, outputs, controls, volumetrics=1):
         if id(record) not in containers:
             continue
         structure, prefix = containers[id(record)]

@@ -96,6 +96,9 @@ def _fields(cls: Any, variables: Sequence[Variable]) -> Any:
         if variable.axis is not None:
             structure = dict(cls._fields_)["axis"]._type_
             place = cls.axis.offset + variable.axis * ctypes.sizeof(structure)
+        elif variable.volumetric is not None:
+            structure = dict(cls._fields_)["volumetric"]._type_
+            place = cls.volumetric.offset + variable.volumetric * ctypes.sizeof(structure)
         field.offset = place + getattr(structure, variable.field).offset
         field.type = {float: b"r", bool: b"b", int: b"i"}[type(variable.start)]
     return fields

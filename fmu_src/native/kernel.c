@@ -70,7 +70,7 @@ static void switch_on(const VolumetricTable *table, VolumetricState *volumetric,
 static bool can_turn_round(const VolumetricTable *table, const VolumetricState *volumetric,
         const VolumetricInputs *given);
 static void drop_axis(VolumetricState *volumetric, int32_t letter);
-static double share(double factor);
+static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter);
 static void contribute(const VolumetricTable *table, VolumetricState *volumetric, State *state);
 static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state);
 static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state);
@@ -122,9 +122,9 @@ void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs)
     }
     for (int32_t k = 0; k < tables->volumetrics; k++) {
         inputs->volumetric[k].enable = tables->volumetric[k].configured && !tables->volumetric[k].manual;
-        for (int32_t d = 0; d < 3; d++) {
-            inputs->volumetric[k].factor[d] = 1.0;
-        }
+        inputs->volumetric[k].factor_x = 1.0;
+        inputs->volumetric[k].factor_y = 1.0;
+        inputs->volumetric[k].factor_z = 1.0;
     }
 }
 
@@ -1352,7 +1352,7 @@ static void switch_on(const VolumetricTable *table, VolumetricState *volumetric,
     volumetric->on = true;
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->taking_part[d] = true;
-        volumetric->factor[d] = table->sign[d] * share(given->factor[d]);
+        volumetric->factor[d] = signed_factor(table, given, d);
     }
     for (int32_t m = 0; m < table->members; m++) {
         state->axis[table->member[m]].stop_request = false;
@@ -1369,11 +1369,17 @@ static void switch_on(const VolumetricTable *table, VolumetricState *volumetric,
     }
 }
 
-/* Return a CFACT within 0 … 1; what is no number counts as 0. */
-static double share(double factor)
+/* Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0. */
+static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter)
 {
+    double factor = given->factor_x;
+    if (letter == 1) {
+        factor = given->factor_y;
+    } else if (letter == LINEAR - 1) {
+        factor = given->factor_z;
+    }
     if (factor >= 0.0) {
-        return double_min(factor, 1.0);
+        return table->sign[letter] * double_min(factor, 1.0);
     }
     return 0.0;
 }
@@ -1383,7 +1389,7 @@ static bool can_turn_round(const VolumetricTable *table, const VolumetricState *
         const VolumetricInputs *given)
 {
     for (int32_t d = 0; d < LINEAR; d++) {
-        if (!volumetric->taking_part[d] || volumetric->factor[d] != table->sign[d] * share(given->factor[d])) {
+        if (!volumetric->taking_part[d] || volumetric->factor[d] != signed_factor(table, given, d)) {
             return false;
         }
     }

@@ -103,7 +103,9 @@ typedef struct {
 typedef struct {
     bool enable;
     bool no_move;
-    double factor[LINEAR];  /* CFACT of X, Y, Z, 0 … 1; it counts when the compensation is switched on */
+    double factor_x;  /* CFACT_X, 0 … 1; factors count when the compensation is switched on */
+    double factor_y;
+    double factor_z;
 } VolumetricInputs;
 
 /* What the engine returns for a volumetric compensation. */

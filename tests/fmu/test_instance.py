@@ -132,7 +132,7 @@ def test_a_step_without_an_instant_holds_the_outputs(driver: Driver) -> None:
 
 def test_references_that_do_not_exist_are_survived_and_told_once(driver: Driver) -> None:
     for _ in range(3):
-        assert driver.instance.get("Real", [64, 5, -1, 64 * 40, 10**9]) == [0.0] * 5
+        assert driver.instance.get("Real", [64, 6, -1, 64 * 40, 10**9]) == [0.0] * 5
         assert driver.instance.get("Integer", [64]) == [0]
         assert driver.instance.get("String", [64]) == [""]
         assert driver.instance.get("Boolean", [64]) == [False]

@@ -92,7 +92,7 @@ def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[f
         for command in inputs.volumetric:
             command.enable = command.enable != (source.random() < 0.05)
             command.no_move = source.random() < 0.2
-            command.factor[:] = [source.choice([0.0, 0.5, 1.0]) for _ in command.factor]
+            command.factor_x, command.factor_y, command.factor_z = source.choices([0.0, 0.5, 1.0], k=3)
         to_c(inputs, structs[2])
         cycle(tables, state, inputs, outputs)
         native_cycle(*map(ctypes.byref, structs))

@@ -43,6 +43,10 @@ class Bench:
             rows.append([axis.corrected_setpoint - given.setpoint for axis, given in axes])
         return np.array(rows)
 
+    def set_factors(self, x: float, y: float, z: float) -> None:
+        given = self.given[0]
+        given.factor_x, given.factor_y, given.factor_z = x, y, z
+
     @property
     def corrections(self) -> list[float]:
         return [axis.volumetric_correction for axis in self.runtime.outputs.axis[:3]]
@@ -361,14 +365,14 @@ def test_factors_signs_and_zeros_apply_to_the_correction() -> None:
     bench = Bench(shifted(negate="X", set_to_zero="Y"))
     assert bench.run()[0] == pytest.approx([0.01, 0.0, 0.04])
     bench = Bench(shifted())
-    bench.given[0].factor[:] = [0.5, 0.0, 7.0]
+    bench.set_factors(0.5, 0.0, 7.0)
     assert bench.run()[0] == pytest.approx([-0.005, 0.0, 0.04])
 
 
 def test_a_factor_counts_from_the_next_switch_on_and_never_jumps() -> None:
     bench = Bench(shifted())
     bench.run()
-    bench.given[0].factor[:] = [0.5] * 3
+    bench.set_factors(0.5, 0.5, 0.5)
     assert bench.run(3) == pytest.approx(np.tile(VALUES, (3, 1)))
     bench.given[0].enable = False
     offsets = bench.run(5)
@@ -380,7 +384,7 @@ def test_a_factor_counts_from_the_next_switch_on_and_never_jumps() -> None:
 
 def test_what_is_no_number_is_no_factor() -> None:
     bench = Bench(shifted())
-    bench.given[0].factor[:] = [float("nan"), -1.0, 1.0]
+    bench.set_factors(float("nan"), -1.0, 1.0)
     assert bench.run()[0] == pytest.approx([0.0, 0.0, 0.04])
 
 
