@@ -220,14 +220,15 @@ class Stage:
         for volumetric in self.machine.volumetric:
             letters = [letter for letter, number in volumetric.axes if number == axis.number]
             for error in volumetric.errors:
-                if [*error.arguments] == letters:
-                    return error.nodes[0][0], error.nodes[-1][0]
+                if letters and letters[0] in error.arguments:
+                    along = [node[error.arguments.index(letters[0])] for node in error.nodes]
+                    return min(along), max(along)
         return -100.0, 100.0
 
 
-def settle(course: Course) -> int:
+def settle(course: Course, duration: float = SETTLING) -> int:
     """Let the axes settle and return the cycle to read them in; in the one after it velocities begin to rise again."""
-    return course.dwell(SETTLING) - 2
+    return course.dwell(duration) - 2
 
 
 def _length1(plane: Plane) -> float:

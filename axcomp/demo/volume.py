@@ -19,6 +19,8 @@ TOOL_LENGTH = 120.0
 ASIDE = 0.65
 """Where axes stand that do not move, as a share of their range."""
 STOPS, STOPS_OF_TURN = 12, 24
+STANDSTILL = 0.2
+"""Before the tip is looked at, s: a linear axis that only follows its correction sticks for a while."""
 TURNING = Limits(180.0, 1500.0, 4e4)
 
 
@@ -32,19 +34,20 @@ def volumetric_trials(machine: Machine, cycle_time: float) -> Iterator[Trial]:
         yield _trial(stage, linear, STOPS, RAPID)
     for axis in axes:
         if axis not in linear:
-            yield _trial(stage, [axis], STOPS_OF_TURN, TURNING)
+            # A full turn ends where it began: the seam of the tables lies in between.
+            yield _trial(stage, [axis], STOPS_OF_TURN, TURNING, closed=axis.modulo is not None)
 
 
-def _trial(stage: Stage, axes: Sequence[Axis], stops: int, limits: Limits) -> Trial:
+def _trial(stage: Stage, axes: Sequence[Axis], stops: int, limits: Limits, *, closed: bool = False) -> Trial:
     """Return the trial in which axes go together from one end of their ranges to the other, stop by stop."""
     moving = tuple(name_of(axis) for axis in axes)
     # A share of the step inside the ends, so that the stops fall between the points of the tables.
-    places = [_at(stage, moving, (stop + 0.37) / stops) for stop in range(stops)]
+    places = [_at(stage, moving, (stop + 0.37) / stops) for stop in range(stops + closed)]
     course = Course({**_at(stage, stage.spans, ASIDE), **places[0]}, stage.cycle_time)
     read = []
     for place in places:
         course.move(place, limits)
-        read.append(settle(course))
+        read.append(settle(course, STANDSTILL))
     return Trial(VOLUMETRIC, course.setpoints(), {TCP: np.array(read)}, moving)
 
 
