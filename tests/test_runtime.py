@@ -275,6 +275,19 @@ class TestUpdate:
             weights.append(runtime.outputs.axis[1].cross_correction / (0.1 * np.cos(0.0)))
         assert weights == pytest.approx([0.75, 0.25, 0.0, 0.0])
 
+    def test_what_is_on_stays_at_full_weight_and_switches_off_over_its_new_length(self) -> None:
+        for cycles in (3, 20):
+            runtime = Runtime(MACHINE)
+            runtime.cycle()
+            runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, n_cycles=cycles)))))
+            weights = []
+            for k in range(cycles + 3):
+                runtime.inputs.axis[1].cross_enable = k < 2
+                runtime.cycle()
+                weights.append(runtime.outputs.axis[1].cross_correction / (0.1 * np.cos(0.0)))
+            k = np.clip(np.append([cycles, cycles], np.arange(cycles - 1, -2, -1)), 0, cycles)
+            assert weights == pytest.approx(np.sin(np.pi / 2 * k / cycles) ** 2)
+
     def test_what_no_longer_exists_is_off_at_once_and_the_rest_is_as_it_was(self) -> None:
         runtime = Runtime(MACHINE)
         run(runtime, 0, 30)

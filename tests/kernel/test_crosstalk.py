@@ -71,9 +71,10 @@ class TestOneTest:
             run = drive(machine(crosstalk(mode, tests)), {"X.acceleration": [2000.0], **unreferenced})
             assert run["Y.crosstalk_correction"] == [expected]
 
-    @pytest.mark.parametrize(("mode", "needed"), [(2, "A"), (3, "AB")])
-    def test_only_the_adaptation_axes_must_be_referenced(self, mode: int, needed: str) -> None:
-        tests = [self.TEST, CrosstalkTest(9.0, 0.0), CrosstalkTest(0.0, 9.0)][: 2 if mode == 2 else 3]
+    @pytest.mark.parametrize(("mode", "count", "needed"), [(2, 2, "A"), (3, 3, "AB"), (3, 4, "AB")])
+    def test_only_the_adaptation_axes_must_be_referenced(self, mode: int, count: int, needed: str) -> None:
+        corners = [CrosstalkTest(9.0, 0.0), CrosstalkTest(0.0, 9.0), CrosstalkTest(9.0, 9.0)]
+        tests = [self.TEST, *corners][:count]
         for name in "XYAB":
             run = drive(machine(crosstalk(mode, tests)), {"X.acceleration": [2000.0], f"{name}.referenced": False})
             assert run["Y.crosstalk_active"] == [name not in needed]

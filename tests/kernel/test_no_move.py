@@ -95,6 +95,15 @@ def test_what_is_absorbed_during_a_release_waits_for_the_next_motion() -> None:
     assert (np.abs(np.diff(others)) < 0.1).all()
 
 
+def test_motion_amid_a_release_does_not_cut_it_short_for_what_waits() -> None:
+    raw = np.array([0.0, 0.0, 1.0, 1.0, 1.0, *np.arange(2.0, 24.0)])
+    off = {"S.cross_enable": flags("1" + "." * 26), "S.plane_enable": flags("111" + "." * 24)}
+    run = drive(machine(), {"S.setpoint": raw, "S.no_move": True, **off})
+    first = 0.5 * np.concatenate([[0, 1], soft(np.clip(np.arange(N - 1, -18, -1), 0, N), N)])
+    second = 0.25 * np.concatenate([np.zeros(3), np.ones(7), soft(np.clip(np.arange(N - 1, -10, -1), 0, N), N)])
+    assert run["S.setpoint_shift"] == pytest.approx(first + second, abs=1e-12)
+
+
 def test_in_motion_the_leadscrew_switches_as_softly_as_a_shift_is_released() -> None:
     raw = np.arange(20.0)
     run = drive(machine(), {"S.setpoint": raw, "S.no_move": True, "S.leadscrew_enable": flags("111" + "." * 17)})
