@@ -18,6 +18,7 @@ from ..measurement.create_plane import create_plane, read_flatness
 from ..measurement.creation import Creation, Options
 from ..measurement.positioning import joined, read_positioning
 from ..measurement.target_list import TargetList
+from . import create_volumetric
 
 
 class _Kind(NamedTuple):
@@ -105,6 +106,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     kinds = parser.add_subparsers(metavar="KIND", required=True)
     for name, kind in _KINDS.items():
         _add_kind(kinds, name, kind)
+    create_volumetric.add_kind(kinds)
 
 
 def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], name: str, kind: _Kind) -> None:

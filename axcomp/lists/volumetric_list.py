@@ -60,7 +60,7 @@ def read_volumetric(lists: MachineFiles, files: Files, axes: Axes, findings: Fin
             if path is not None and text is not None:
                 errors = findings.errors()
                 values = read_values(text, str(path), ListKind.VOLUMETRIC, findings)
-                reader = _VolumetricReader(index, values, lists, files, axes, findings)
+                reader = VolumetricReader(index, values, lists, files, axes, findings)
                 volumetric = reader.read()
                 if findings.errors() == errors:
                     found.append(volumetric)
@@ -68,7 +68,7 @@ def read_volumetric(lists: MachineFiles, files: Files, axes: Axes, findings: Fin
     return tuple(found)
 
 
-class _VolumetricReader:
+class VolumetricReader:
     """Reads one volumetric list."""
 
     def __init__(

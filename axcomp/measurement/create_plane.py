@@ -27,6 +27,7 @@ from .creation import (
     rounded,
     spread_figures,
 )
+from .hats import hats
 from .motion import Array
 from .positioning import TARGET_DIGITS, angular, thousandth, unit_of, whole_runs
 from .target_list import TargetList
@@ -134,13 +135,13 @@ class Grid:
 
     def at(self, positions1: Array, positions2: Array) -> Array:
         """Return the bilinear values at places (n,); outside, the edge holds."""
-        hats = [
-            _hats(start + interval * np.arange(count), positions)
+        weights = [
+            hats(start + interval * np.arange(count), positions)
             for start, interval, count, positions in zip(
                 self.start, self.interval, self.values.shape[::-1], (positions1, positions2), strict=True
             )
         ]
-        result: Array = np.sum((hats[0] @ self.values.T) * hats[1], axis=1)
+        result: Array = np.sum((weights[0] @ self.values.T) * weights[1], axis=1)
         return result
 
 
@@ -290,7 +291,7 @@ class _Fits:
         return float(rounded(np.array([np.ptp(self._targets) / (count - 1)]))[0])
 
     def _hats(self, count: int) -> Array:
-        return _hats(self.start + self.interval(count) * np.arange(count, dtype=float), self._targets)
+        return hats(self.start + self.interval(count) * np.arange(count, dtype=float), self._targets)
 
     def _is_determined(self, count: int) -> bool:
         return self.interval(count) > 0.0 and int(np.linalg.matrix_rank(self._hats(count))) == count
@@ -305,22 +306,10 @@ class _Fits:
 
     def _both(self, count: int) -> tuple[Array, Array]:
         if count not in self._matrices:
-            hats = self._hats(count)
-            solve = np.asarray(np.linalg.pinv(hats), dtype=np.float64)
-            self._matrices[count] = solve, hats @ solve
+            weights = self._hats(count)
+            solve = np.asarray(np.linalg.pinv(weights), dtype=np.float64)
+            self._matrices[count] = solve, weights @ solve
         return self._matrices[count]
-
-
-def _hats(knots: Array, at: Array) -> Array:
-    """Return the weights of linear interpolation, shape (positions, knots); outside, the end value has them all."""
-    clamped = np.clip(at, knots[0], knots[-1])
-    left = np.clip(np.searchsorted(knots, clamped, side="right") - 1, 0, len(knots) - 2)
-    share = (clamped - knots[left]) / (knots[left + 1] - knots[left])
-    weights = np.zeros((len(at), len(knots)))
-    rows = np.arange(len(at))
-    weights[rows, left] = 1.0 - share
-    weights[rows, left + 1] += share
-    return weights
 
 
 def _draw(ax: Axes, measurement: Flatness, left: Array) -> None:

@@ -9,21 +9,27 @@ from __future__ import annotations
 
 import codecs
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
-from ..lists.catalogue import SPELLINGS
+from ..lists.catalogue import SPELLINGS, Spelling
 from ..lists.grammar import Entry, decode, entries, string
 from ..lists.parameter import DataType, ListKind, Parameter, key_of
 
 _NEWLINES = re.compile(r"(\r\n|\r|\n)")
 _END = re.compile(r"\s*end\s*\Z", re.I)
-_KIND = ListKind.COMPENSATION
 
 Name = tuple[str, tuple[int, ...]]
 
 
-def edited(data: bytes, new: Sequence[str], owned: Collection[str], heading: str, keep_row_comments: bool) -> bytes:
-    """Return a compensation list with new entries.
+def edited(
+    data: bytes,
+    new: Sequence[str],
+    owned: Collection[str],
+    heading: str,
+    keep_row_comments: bool,
+    kind: ListKind = ListKind.COMPENSATION,
+) -> bytes:
+    """Return a list with new entries.
 
     Parameters
     ----------
@@ -37,6 +43,8 @@ def edited(data: bytes, new: Sequence[str], owned: Collection[str], heading: str
         Comment above them where the list has none of them; ASCII.
     keep_row_comments : bool
         Rows of tables still stand for the same, so what is said about them stays true.
+    kind : ListKind
+        Of the list.
 
     Raises
     ------
@@ -49,26 +57,26 @@ def edited(data: bytes, new: Sequence[str], owned: Collection[str], heading: str
     pieces = _NEWLINES.split(_decoded(data))
     lines, newlines = pieces[::2], pieces[1::2]
     newline = newlines[0] if newlines else "\n"
-    wanted = {_name(entry): entry for entry in _known("\n".join(new))}
-    present = list(_known(text))
+    known = SPELLINGS[kind]
+    wanted = {name: entry for name, _, entry in _known("\n".join(new), known)}
+    present = _known(text, known)
     keys = {key_of(name) for name in owned}
 
     places: dict[Name, int] = {}
     gone: set[int] = set()
     first = first_row = None
-    for entry in present:
-        parameter = _parameter(entry)
+    for name, parameter, entry in present:
         if parameter.key not in keys:
             continue
         first = entry.line - 1 if first is None else first
         at = entry.line - 1
         if entry.indices and first_row is None:
             first_row = at
-        replacement = wanted.get(_name(entry))
+        replacement = wanted.get(name)
         if replacement is not None:
-            places[_name(entry)] = at
+            places[name] = at
             comment_stays = keep_row_comments or not entry.indices
-            lines[at] = _with_value(lines[at], entry, _text_of(replacement), comment_stays)
+            lines[at] = _with_value(lines[at], entry, parameter, _text_of(replacement, parameter), comment_stays)
         else:
             gone.add(at)
 
@@ -82,30 +90,25 @@ def edited(data: bytes, new: Sequence[str], owned: Collection[str], heading: str
     return _encoded(_joined(lines, newlines, gone, added, newline), data)
 
 
-def _known(text: str) -> Iterator[Entry]:
-    """Yield the entries of a list that the catalogue knows."""
+def _known(text: str, known: Mapping[str, Spelling]) -> list[tuple[Name, Parameter, Entry]]:
+    """Return the entries of a list that the catalogue knows, with their names and parameters."""
+    found = []
     for entry in entries(text, lambda *_: None):
-        if entry.key.lower() in SPELLINGS[_KIND]:
-            yield entry
+        spelling = known.get(entry.key.lower())
+        if spelling is not None:
+            found.append(((spelling.parameter.key, entry.indices), spelling.parameter, entry))
+    return found
 
 
-def _parameter(entry: Entry) -> Parameter:
-    return SPELLINGS[_KIND][entry.key.lower()].parameter
+def _text_of(entry: Entry, parameter: Parameter) -> str:
+    return entry.text.rstrip() if parameter.type is DataType.STRING else entry.word
 
 
-def _name(entry: Entry) -> Name:
-    return _parameter(entry).key, entry.indices
-
-
-def _text_of(entry: Entry) -> str:
-    return entry.text.rstrip() if _parameter(entry).type is DataType.STRING else entry.word
-
-
-def _with_value(line: str, entry: Entry, value: str, comment_stays: bool) -> str:
+def _with_value(line: str, entry: Entry, parameter: Parameter, value: str, comment_stays: bool) -> str:
     """Return a line with another value; a comment that stays keeps its column where it can."""
     start = len(line) - len(line[_after_name(line, entry) :].lstrip())
     old = line[start:]
-    if _parameter(entry).type is DataType.STRING:
+    if parameter.type is DataType.STRING:
         comment = string(entry.text).comment
         length = len(old) - len(comment) if comment else len(old)
     else:
@@ -138,7 +141,7 @@ def _added(
         if name in places:
             cursor = places[name] + 1
         else:
-            added.setdefault(cursor, []).append(f"{entry.name:<40} {_text_of(entry)}")
+            added.setdefault(cursor, []).append(f"{entry.name:<40} {entry.text.rstrip()}")
     return added
 
 
