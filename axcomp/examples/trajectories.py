@@ -51,9 +51,28 @@ def manual_examples() -> Trajectory:
     return _inputs(course)
 
 
+def five_axis() -> Trajectory:
+    """All axes forth and back, C over the end of its range; in between the tables' compensation goes off and on."""
+    limits = Limits(350.0, 2400.0, 6e4)
+    course = Course({"X": -60.0, "Y": 20.0, "Z": -150.0, "B": 10.0, "C": 335.0}, CYCLE_TIME)
+    course.dwell(0.02)
+    off = course.move({"X": 40.0, "Y": -35.0, "Z": -172.0, "B": 31.0, "C": 388.0}, limits)
+    on = course.dwell(0.05)
+    course.dwell(0.05)
+    course.move({"X": -12.0, "Y": 41.0, "Z": -131.0, "B": -14.0, "C": 342.0}, limits)
+    inputs = _inputs(course)
+    for name in ("C.setpoint", "C.actual_position"):
+        inputs[name] = np.mod(inputs[name], 360.0)
+    inputs["tool_length"] = np.full(CYCLES, 120.0)
+    inputs["volumetric[1].enable"] = np.ones(CYCLES)
+    inputs["volumetric[1].enable"][off:on] = 0.0
+    return inputs
+
+
 TRAJECTORIES: Mapping[str, Callable[[], Trajectory]] = {
     "three_axis": three_axis,
     "rotary_table": rotary_table,
+    "five_axis": five_axis,
     "manual_examples": manual_examples,
 }
 """By the name of the model's folder."""

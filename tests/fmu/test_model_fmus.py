@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from axcomp.examples.files import EXPECTED, INPUT, read_csv
+from axcomp.examples.trajectories import TRAJECTORIES
 from axcomp.fmu.package import package_axcomp
 from axcomp.places import models
 
 
-@pytest.mark.parametrize("name", ["three_axis", "rotary_table", "manual_examples"])
+@pytest.mark.parametrize("name", sorted(TRAJECTORIES))
 def test_fmpy_simulate_reproduces_the_expected_output(name: str, tmp_path: Path) -> None:
     model, output = models() / name, tmp_path / "output.csv"
     fmu = package_axcomp(model, tmp_path).path
