@@ -18,7 +18,11 @@ from ..kernel.volumetric_records import VolumetricTable
 from .layout import ctypes_of
 
 GENERATED = "/* Generated from axcomp/fmu/variables.py by `python -m axcomp.native`; do not edit. */"
-TABLES = {"MACHINE_PLACES": MACHINE_BLOCK, "AXIS_PLACES": AXIS_BLOCK, "VOLUMETRIC_PLACES": VOLUMETRIC_BLOCK}
+TABLES = {
+    "axcomp_machine_places": MACHINE_BLOCK,
+    "axcomp_axis_places": AXIS_BLOCK,
+    "axcomp_volumetric_places": VOLUMETRIC_BLOCK,
+}
 """Table of places → block of value references that it describes (the first of its kind)."""
 
 NO_PLACE = "    {0, 0, 0}"
@@ -39,8 +43,7 @@ def layout_header() -> str:
 #define AXCOMP_LAYOUT 0x{layout():08x}u  /* of the records in images and states */
 #define AXCOMP_POINTER {ctypes.sizeof(ctypes.c_void_p)}u  /* bytes of a pointer in them */
 
-enum {{ MACHINE_BLOCK = {TABLES["MACHINE_PLACES"]}, AXIS_BLOCK = {TABLES["AXIS_PLACES"]}, \
-VOLUMETRIC_BLOCK = {TABLES["VOLUMETRIC_PLACES"]} }};
+enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK} }};
 
 #endif
 """

@@ -7,11 +7,6 @@
 #include "instance.h"
 #include "places.h"
 
-#if defined(AXCOMP_EMBEDDED)
-extern const unsigned long long axcomp_image[];
-extern const unsigned int axcomp_image_size;
-#endif
-
 enum {
     ANY_PHASE = INSTANTIATED | INITIALIZATION | STEPPING | TERMINATED,
     BEFORE_STEPS = INSTANTIATED | INITIALIZATION,
@@ -49,7 +44,7 @@ static Instance *allowed(fmi2Component component, unsigned phases, const char *f
         return NULL;
     }
     if ((instance->memory.phase & phases) == 0) {
-        say(instance, fmi2Error, "%s must not be called now", function);
+        axcomp_say(instance, fmi2Error, "%s must not be called now", function);
         return NULL;
     }
     return instance;
@@ -78,13 +73,13 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, f
     for (size_t i = 0; i < count; i++) {
         int known = -1;
         for (int k = 0; k < CATEGORIES; k++) {
-            if (categories[i] != NULL && strcmp(categories[i], LOG_CATEGORIES[k]) == 0) {
+            if (categories[i] != NULL && strcmp(categories[i], axcomp_log_categories[k]) == 0) {
                 known = k;
             }
         }
         if (known < 0) {
-            return say(instance, fmi2Error, "fmi2SetDebugLogging: there is no log category %s",
-                       categories[i] != NULL ? categories[i] : "NULL");
+            return axcomp_say(instance, fmi2Error, "fmi2SetDebugLogging: there is no log category %s",
+                              categories[i] != NULL ? categories[i] : "NULL");
         }
         wanted |= known == CATEGORY_ALL ? ~0u : 1u << known;
     }
@@ -100,25 +95,25 @@ static int read_own_image(Instance *instance, fmi2String location)
 {
 #if defined(AXCOMP_EMBEDDED)
     (void)location;
-    const char *complaint = read_image((const unsigned char *)axcomp_image, axcomp_image_size, instance->first);
+    const char *complaint = axcomp_read_image((const unsigned char *)axcomp_image, axcomp_image_size, instance->first);
     const char *path = "the image in the sources";
 #else
     char path[PATH_LENGTH];
     size_t size = 0;
-    if (location == NULL || !path_of(location, "tables.bin", path)) {
-        say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
+    if (location == NULL || !axcomp_path_of(location, "tables.bin", path)) {
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
         return 0;
     }
-    unsigned char *data = read_file(path, &size);
+    unsigned char *data = axcomp_read_file(path, &size);
     if (data == NULL) {
-        say(instance, fmi2Error, "fmi2Instantiate: %s cannot be read", path);
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: %s cannot be read", path);
         return 0;
     }
-    const char *complaint = read_image(data, size, instance->first);
+    const char *complaint = axcomp_read_image(data, size, instance->first);
     free(data);
 #endif
     if (complaint != NULL) {
-        say(instance, fmi2Error, "fmi2Instantiate: %s is refused: %s", path, complaint);
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: %s is refused: %s", path, complaint);
     }
     return complaint == NULL;
 }
@@ -141,37 +136,37 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
     instance->name = (char *)malloc(strlen(known) + 1);
     instance->first = (Lists *)calloc(1, sizeof *instance->first);
     if (instance->name == NULL || instance->first == NULL) {
-        free_instance(instance);
+        axcomp_free_instance(instance);
         return NULL;
     }
     memcpy(instance->name, known, strlen(known) + 1);
 
     int usable = 0;
     if (known[0] == 0) {
-        say(instance, fmi2Error, "fmi2Instantiate: the instance has no name");
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: the instance has no name");
     } else if (type != fmi2CoSimulation) {
-        say(instance, fmi2Error, "fmi2Instantiate: this is an FMU for co-simulation");
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: this is an FMU for co-simulation");
     } else if (guid == NULL) {
-        say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
     } else if (read_own_image(instance, location)) {
         usable = strcmp(guid, instance->first->guid) == 0;
         if (!usable) {
-            say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,
-                instance->first->guid);
+            axcomp_say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,
+                       instance->first->guid);
         }
     }
     if (!usable) {
-        free_instance(instance);
+        axcomp_free_instance(instance);
         return NULL;
     }
-    begin_again(instance);
+    axcomp_begin_again(instance);
     return instance;
 }
 
 FMI2_EXPORT void FMI2_NAME(fmi2FreeInstance)(fmi2Component component)
 {
     if (component != NULL) {
-        free_instance((Instance *)component);
+        axcomp_free_instance((Instance *)component);
     }
 }
 
@@ -188,7 +183,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component component, f
         return fmi2Error;
     }
     if (!isfinite(start) || (stop_defined && !(stop >= start))) {
-        return say(instance, fmi2Error, "fmi2SetupExperiment: start and stop time do not fit");
+        return axcomp_say(instance, fmi2Error, "fmi2SetupExperiment: start and stop time do not fit");
     }
     instance->memory.start_time = start;
     return fmi2OK;
@@ -210,7 +205,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component compo
     if (instance == NULL) {
         return fmi2Error;
     }
-    preview_outputs(instance);
+    axcomp_preview_outputs(instance);
     instance->memory.phase = STEPPING;
     return fmi2OK;
 }
@@ -231,7 +226,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Reset)(fmi2Component component)
     if (instance == NULL) {
         return fmi2Error;
     }
-    begin_again(instance);
+    axcomp_begin_again(instance);
     return fmi2OK;
 }
 
@@ -244,9 +239,10 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component component, fmi2Real t
         return fmi2Error;
     }
     if (!isfinite(time) || !isfinite(step) || step < 0.0) {
-        return say(instance, fmi2Error, "fmi2DoStep: time and step size must be finite, and the step not negative");
+        return axcomp_say(instance, fmi2Error,
+                          "fmi2DoStep: time and step size must be finite, and the step not negative");
     }
-    return advance(instance, time + step);
+    return axcomp_advance(instance, time + step);
 }
 
 /* ---- Values ---- */
@@ -259,19 +255,19 @@ static void *place_of(Instance *instance, fmi2ValueReference reference, char typ
     void *record = NULL;
     *place = NULL;
     if (block == MACHINE_BLOCK) {
-        *place = &MACHINE_PLACES[reference % PLACES];
+        *place = &axcomp_machine_places[reference % PLACES];
         record = memory;
     } else if (block >= AXIS_BLOCK && block < AXIS_BLOCK + (unsigned)instance->lists->tables.axis_count) {
-        *place = &AXIS_PLACES[reference % PLACES];
+        *place = &axcomp_axis_places[reference % PLACES];
         record = (*place)->causality == 'o' ? (void *)&memory->outputs.axis[block - AXIS_BLOCK]
                                             : (void *)&memory->inputs.axis[block - AXIS_BLOCK];
     } else if (block >= VOLUMETRIC_BLOCK && block < VOLUMETRIC_BLOCK + (unsigned)instance->lists->tables.volumetrics) {
-        *place = &VOLUMETRIC_PLACES[reference % PLACES];
+        *place = &axcomp_volumetric_places[reference % PLACES];
         record = (*place)->causality == 'o' ? (void *)&memory->outputs.volumetric[block - VOLUMETRIC_BLOCK]
                                             : (void *)&memory->inputs.volumetric[block - VOLUMETRIC_BLOCK];
     }
     if (record == NULL || (*place)->type != type) {
-        say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
+        axcomp_say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
         return NULL;
     }
     return (char *)record + (*place)->offset;
@@ -285,7 +281,7 @@ static Instance *readable(fmi2Component component, const void *references, const
         return NULL;
     }
     if (instance->memory.phase == INITIALIZATION) {
-        preview_outputs(instance);
+        axcomp_preview_outputs(instance);
     }
     return instance;
 }
@@ -299,7 +295,7 @@ static void *settable(Instance *instance, fmi2ValueReference reference, char typ
     }
     bool fixed = (*place)->causality == 'p' && instance->memory.phase == STEPPING;
     if ((*place)->causality == 'o' || fixed) {
-        say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
+        axcomp_say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
         return NULL;
     }
     return value;
@@ -396,8 +392,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi
         if (value == NULL) {
             return fmi2Error;
         }
-        if (place->causality == 'p' && !cycle_time_fits(values[i])) {
-            return say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
+        if (place->causality == 'p' && !axcomp_cycle_time_fits(values[i])) {
+            return axcomp_say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
         }
         *value = values[i];
     }
@@ -439,7 +435,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component component, const 
         *value = values[i] != fmi2False;
     }
     if (instance->memory.controls.reload && !reload) {
-        read_update(instance);
+        axcomp_read_update(instance);
     } else if (!instance->memory.controls.reload) {
         instance->waiting = NULL;
         instance->memory.refused = false;
@@ -461,7 +457,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const f
             return fmi2Error;
         }
         if (values[i] == NULL || strlen(values[i]) + 1 > PATH_LENGTH) {
-            return say(instance, fmi2Error, "a string is missing, or has more than %d bytes", PATH_LENGTH - 1);
+            return axcomp_say(instance, fmi2Error, "a string is missing, or has more than %d bytes", PATH_LENGTH - 1);
         }
         memcpy(value, values[i], strlen(values[i]) + 1);
     }
@@ -481,7 +477,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     }
     Saved *saved = (Saved *)*state;
     if (saved == NULL) {
-        return say(instance, fmi2Error, "fmi2GetFMUstate: there is no memory for the state");
+        return axcomp_say(instance, fmi2Error, "fmi2GetFMUstate: there is no memory for the state");
     }
     saved->lists = instance->lists;
     saved->waiting = instance->waiting;
@@ -510,7 +506,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     Lists *lists = lists_with(instance, saved->lists->identity);
     Lists *waiting = saved->waiting == NULL ? NULL : lists_with(instance, saved->waiting->identity);
     if (lists == NULL || (waiting == NULL) != (saved->waiting == NULL)) {
-        return say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
+        return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
     }
     instance->memory = saved->memory;
     instance->lists = lists;
@@ -548,7 +544,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component,
         return fmi2Error;
     }
     if (size < SERIALIZED_SIZE) {
-        return say(instance, fmi2Error, "fmi2SerializeFMUstate: the state has more bytes");
+        return axcomp_say(instance, fmi2Error, "fmi2SerializeFMUstate: the state has more bytes");
     }
     const Saved *saved = (const Saved *)state;
     SavedHeader header;
@@ -558,7 +554,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component,
     header.size = (uint32_t)sizeof saved->memory;
     header.lists = saved->lists->identity;
     header.waiting = saved->waiting == NULL ? 0 : saved->waiting->identity;
-    header.check = crc32_of(0, &saved->memory, sizeof saved->memory);
+    header.check = axcomp_crc32(0, &saved->memory, sizeof saved->memory);
     memcpy(bytes, &header, sizeof header);
     memcpy(bytes + sizeof header, &saved->memory, sizeof saved->memory);
     return fmi2OK;
@@ -573,24 +569,24 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component componen
         return fmi2Error;
     }
     if (size != SERIALIZED_SIZE) {
-        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is truncated, or none of this FMU");
+        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is truncated, or none of this FMU");
     }
     memcpy(&header, bytes, sizeof header);
     if (memcmp(header.magic, STATE_MAGIC, sizeof header.magic) != 0 || header.layout != AXCOMP_LAYOUT
         || header.size != sizeof(Memory)) {
-        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is of another version");
+        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is of another version");
     }
-    if (crc32_of(0, bytes + sizeof header, sizeof(Memory)) != header.check) {
-        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state has been altered");
+    if (axcomp_crc32(0, bytes + sizeof header, sizeof(Memory)) != header.check) {
+        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state has been altered");
     }
     const Lists *lists = lists_with(instance, header.lists);
     const Lists *waiting = header.waiting == 0 ? NULL : lists_with(instance, header.waiting);
     if (lists == NULL || (waiting == NULL && header.waiting != 0)) {
-        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state belongs to other lists");
+        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state belongs to other lists");
     }
     Saved *saved = (Saved *)malloc(sizeof *saved);
     if (saved == NULL) {
-        return say(instance, fmi2Error, "fmi2DeSerializeFMUstate: there is no memory for the state");
+        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: there is no memory for the state");
     }
     saved->lists = lists;
     saved->waiting = waiting;
@@ -608,7 +604,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetDirectionalDerivative)(fmi2Component com
 {
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed, (void)sensitivity;
     Instance *instance = (Instance *)component;
-    return instance == NULL ? fmi2Error : say(instance, fmi2Error, "this FMU has no directional derivatives");
+    return instance == NULL ? fmi2Error : axcomp_say(instance, fmi2Error, "this FMU has no directional derivatives");
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component component,
@@ -619,7 +615,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component comp
     Instance *instance = (Instance *)component;
     return instance == NULL ? fmi2Error
         : count == 0        ? fmi2OK
-                            : say(instance, fmi2Error, "this FMU does not interpolate its inputs");
+                            : axcomp_say(instance, fmi2Error, "this FMU does not interpolate its inputs");
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealOutputDerivatives)(fmi2Component component,
@@ -630,13 +626,13 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealOutputDerivatives)(fmi2Component com
     Instance *instance = (Instance *)component;
     return instance == NULL ? fmi2Error
         : count == 0        ? fmi2OK
-                            : say(instance, fmi2Error, "this FMU has no derivatives of outputs");
+                            : axcomp_say(instance, fmi2Error, "this FMU has no derivatives of outputs");
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2CancelStep)(fmi2Component component)
 {
     Instance *instance = (Instance *)component;
-    return instance == NULL ? fmi2Error : say(instance, fmi2Error, "fmi2CancelStep: no step is ever pending");
+    return instance == NULL ? fmi2Error : axcomp_say(instance, fmi2Error, "fmi2CancelStep: no step is ever pending");
 }
 
 /* All steps are finished when fmi2DoStep returns: there is no status to ask for. */

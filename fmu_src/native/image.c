@@ -7,7 +7,7 @@
 
 #include "layout.h"
 
-uint32_t crc32_of(uint32_t check, const void *data, size_t size)
+uint32_t axcomp_crc32(uint32_t check, const void *data, size_t size)
 {
     static const uint32_t NIBBLES[16] = {
         0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u, 0x4db26158u, 0x5005713cu,
@@ -34,7 +34,7 @@ static bool size_fits(const ImageHeader *header, size_t size)
     return expected == size;
 }
 
-const char *read_image(const unsigned char *data, size_t size, Lists *lists)
+const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lists)
 {
     ImageHeader header;
     memset(lists, 0, sizeof *lists);
@@ -52,7 +52,7 @@ const char *read_image(const unsigned char *data, size_t size, Lists *lists)
         return "it is truncated, or has bytes too many";
     }
     size_t checked = offsetof(ImageHeader, check) + sizeof header.check;
-    if (crc32_of(0, data + checked, size - checked) != header.check) {
+    if (axcomp_crc32(0, data + checked, size - checked) != header.check) {
         return "it has been altered: its checksum does not fit";
     }
     if (header.guid[GUID_LENGTH - 1] != 0) {

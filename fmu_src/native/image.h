@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "config.h"
 #include "kernel.h"
 
 #ifdef __cplusplus
@@ -37,11 +38,17 @@ typedef struct Lists {
     struct Lists *next;
 } Lists;
 
+#if defined(AXCOMP_EMBEDDED)
+/* The image in the sources: tables.c. */
+extern const unsigned long long axcomp_image[];
+extern const unsigned int axcomp_image_size;
+#endif
+
 /* CRC-32 (IEEE 802.3) of some bytes, going on from `check` (0 to begin with). */
-uint32_t crc32_of(uint32_t check, const void *data, size_t size);
+uint32_t axcomp_crc32(uint32_t check, const void *data, size_t size);
 
 /* Read an image into `lists`, whose pool is to be freed in any case. Returns NULL, or what is wrong with the image. */
-const char *read_image(const unsigned char *data, size_t size, Lists *lists);
+const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lists);
 
 #ifdef __cplusplus
 }

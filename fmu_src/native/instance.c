@@ -11,12 +11,12 @@
 
 enum { MESSAGE_LENGTH = 1024 };
 
-const double ON_INSTANT = 1e-6;     /* share of a cycle by which a communication point may miss an instant */
-const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
+static const double ON_INSTANT = 1e-6;     /* share of a cycle by which a communication point may miss an instant */
+static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
 
-const char *const LOG_CATEGORIES[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
+const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
 
-fmi2Status say(const Instance *instance, fmi2Status status, const char *format, ...)
+fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
 {
     int category = status == fmi2OK ? CATEGORY_ALL : status == fmi2Warning ? CATEGORY_WARNING : CATEGORY_ERROR;
     bool wanted = instance->logging && (instance->categories >> category & 1u) != 0;
@@ -39,16 +39,16 @@ fmi2Status say(const Instance *instance, fmi2Status status, const char *format, 
     }
     doubled[length] = 0;
     instance->callbacks.logger(instance->callbacks.componentEnvironment, instance->name, status,
-                               LOG_CATEGORIES[category], doubled);
+                               axcomp_log_categories[category], doubled);
     return status;
 }
 
-bool cycle_time_fits(double cycle_time)
+bool axcomp_cycle_time_fits(double cycle_time)
 {
     return cycle_time > 0.0 && cycle_time < 1e3;
 }
 
-void begin_again(Instance *instance)
+void axcomp_begin_again(Instance *instance)
 {
     Memory *memory = &instance->memory;
     memset(memory, 0, sizeof *memory);
@@ -64,16 +64,16 @@ void begin_again(Instance *instance)
 static Lists *read_lists(Instance *instance, const char *path)
 {
     size_t size = 0;
-    unsigned char *data = read_file(path, &size);
+    unsigned char *data = axcomp_read_file(path, &size);
     if (data == NULL) {
-        say(instance, fmi2Warning, "reload: %s cannot be read", path);
+        axcomp_say(instance, fmi2Warning, "reload: %s cannot be read", path);
         return NULL;
     }
     Lists *lists = (Lists *)calloc(1, sizeof *lists);
-    const char *complaint = lists == NULL ? "there is no memory for it" : read_image(data, size, lists);
+    const char *complaint = lists == NULL ? "there is no memory for it" : axcomp_read_image(data, size, lists);
     free(data);
     if (complaint != NULL) {
-        say(instance, fmi2Warning, "reload: %s is refused: %s", path, complaint);
+        axcomp_say(instance, fmi2Warning, "reload: %s is refused: %s", path, complaint);
         if (lists != NULL) {
             free(lists->pool);
             free(lists);
@@ -85,22 +85,23 @@ static Lists *read_lists(Instance *instance, const char *path)
     return lists;
 }
 
-void read_update(Instance *instance)
+void axcomp_read_update(Instance *instance)
 {
     char path[PATH_LENGTH];
     const Tables *now = &instance->lists->tables;
     const char *given = instance->memory.controls.update_path;
-    Lists *lists = path_of(given, NULL, path) && path[0] != 0 ? read_lists(instance, path) : NULL;
+    Lists *lists = axcomp_path_of(given, NULL, path) && path[0] != 0 ? read_lists(instance, path) : NULL;
     if (path[0] == 0) {
-        say(instance, fmi2Warning, "reload: update_path names no image");
+        axcomp_say(instance, fmi2Warning, "reload: update_path names no image");
     }
     if (lists != NULL && (lists->tables.axis_count != now->axis_count || lists->tables.volumetrics > now->volumetrics)) {
-        say(instance, fmi2Warning, "reload: the new lists have other axes or compensations than the ones in force");
+        axcomp_say(instance, fmi2Warning,
+                   "reload: the new lists have other axes or compensations than the ones in force");
         lists = NULL;
     }
     for (int i = 0; lists != NULL && i < now->axis_count; i++) {
         if (axcomp_update_error(&now->axis[i], &lists->tables.axis[i]) == ERROR_UPDATE) {
-            say(instance, fmi2Warning, "reload: the new lists do not fit axis %d", now->axis[i].number);
+            axcomp_say(instance, fmi2Warning, "reload: the new lists do not fit axis %d", now->axis[i].number);
             lists = NULL;
         }
     }
@@ -127,8 +128,9 @@ static void take_update(Instance *instance)
                 axcomp_adopt_axis(old, &after->tables.axis[i], &memory->state.axis[i], &memory->outputs.axis[i]);
             } else {
                 after->tables.axis[i] = *old;
-                after->identity = crc32_of(after->identity, &before->identity, sizeof before->identity) + (uint32_t)i;
-                say(instance, fmi2Warning, "axis %d keeps its old lists: error %d", old->number, error);
+                after->identity =
+                    axcomp_crc32(after->identity, &before->identity, sizeof before->identity) + (uint32_t)i;
+                axcomp_say(instance, fmi2Warning, "axis %d keeps its old lists: error %d", old->number, error);
             }
         }
         axcomp_adopt_volumetrics(&before->tables, &after->tables, &memory->state, &memory->outputs);
@@ -139,7 +141,7 @@ static void take_update(Instance *instance)
     memory->refused = false;
 }
 
-void preview_outputs(Instance *instance)
+void axcomp_preview_outputs(Instance *instance)
 {
     Memory *memory = &instance->memory;
     instance->lists->tables.cycle_time = memory->controls.cycle_time;
@@ -153,19 +155,20 @@ static void give_notice(Instance *instance)
     for (int i = 0; !instance->notice_given && i < instance->lists->tables.axis_count; i++) {
         if (instance->memory.state.axis[i].crosstalk.outside) {
             instance->notice_given = true;
-            say(instance, fmi2Warning, "axis %d: the adaptation axes of its crosstalk compensation have left the tests",
-                instance->lists->tables.axis[i].number);
+            axcomp_say(instance, fmi2Warning,
+                       "axis %d: the adaptation axes of its crosstalk compensation have left the tests",
+                       instance->lists->tables.axis[i].number);
         }
     }
 }
 
-fmi2Status advance(Instance *instance, double time)
+fmi2Status axcomp_advance(Instance *instance, double time)
 {
     Memory *memory = &instance->memory;
     take_update(instance);
     double due = ceil((time - memory->start_time) / instance->lists->tables.cycle_time - ON_INSTANT);
     if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
-        return say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
     }
     for (; memory->cycles < due; memory->cycles += 1.0) {
         axcomp_cycle(&instance->lists->tables, &memory->state, &memory->inputs, &memory->outputs);
@@ -174,7 +177,7 @@ fmi2Status advance(Instance *instance, double time)
     return fmi2OK;
 }
 
-void free_instance(Instance *instance)
+void axcomp_free_instance(Instance *instance)
 {
     for (Lists *lists = instance->first; lists != NULL;) {
         Lists *next = lists->next;

@@ -38,7 +38,7 @@ typedef struct {
     fmi2CallbackFunctions callbacks;
     char *name;
     bool logging;
-    unsigned categories;  /* bit k: category k of LOG_CATEGORIES */
+    unsigned categories;  /* bit k: category k of axcomp_log_categories */
     Lists *lists;         /* in force; all that were ever read hang behind `first` */
     Lists *waiting;       /* read by `reload`, for the next step; NULL: none */
     Lists *first;
@@ -48,28 +48,28 @@ typedef struct {
 } Instance;
 
 enum { CATEGORY_WARNING, CATEGORY_ERROR, CATEGORY_ALL, CATEGORIES };
-extern const char *const LOG_CATEGORIES[CATEGORIES];
+extern const char *const axcomp_log_categories[CATEGORIES];
 
 /* Tell the host; errors always, the rest if it wants to know. Returns `status`. */
-fmi2Status say(const Instance *instance, fmi2Status status, const char *format, ...);
+fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...);
 
 /* Put the instance back to what it is right after instantiation. */
-void begin_again(Instance *instance);
+void axcomp_begin_again(Instance *instance);
 
 /* Read an image in `update_path` (on a rising edge of `reload`); the next step takes or refuses it. */
-void read_update(Instance *instance);
+void axcomp_read_update(Instance *instance);
 
 /* Compute the outputs of the first cycle without running it. */
-void preview_outputs(Instance *instance);
+void axcomp_preview_outputs(Instance *instance);
 
 /* Run the cycles whose instants lie before `time`, s. */
-fmi2Status advance(Instance *instance, double time);
+fmi2Status axcomp_advance(Instance *instance, double time);
 
 /* Whether the parameter cycle_time is possible. */
-bool cycle_time_fits(double cycle_time);
+bool axcomp_cycle_time_fits(double cycle_time);
 
 /* Free everything. */
-void free_instance(Instance *instance);
+void axcomp_free_instance(Instance *instance);
 
 #ifdef __cplusplus
 }

@@ -5,7 +5,7 @@
 
 #include "instance.h"
 
-const Place MACHINE_PLACES[PLACES] = {
+const Place axcomp_machine_places[PLACES] = {
     {'b', 'i', offsetof(Memory, inputs.reset)},
     {'b', 'i', offsetof(Memory, inputs.program_end)},
     {'b', 'i', offsetof(Memory, controls.reload)},
@@ -72,7 +72,7 @@ const Place MACHINE_PLACES[PLACES] = {
     {0, 0, 0}
 };
 
-const Place AXIS_PLACES[PLACES] = {
+const Place axcomp_axis_places[PLACES] = {
     {'r', 'i', offsetof(AxisInputs, setpoint)},
     {'r', 'i', offsetof(AxisInputs, velocity)},
     {'r', 'i', offsetof(AxisInputs, acceleration)},
@@ -139,7 +139,7 @@ const Place AXIS_PLACES[PLACES] = {
     {0, 0, 0}
 };
 
-const Place VOLUMETRIC_PLACES[PLACES] = {
+const Place axcomp_volumetric_places[PLACES] = {
     {'b', 'i', offsetof(VolumetricInputs, enable)},
     {'b', 'i', offsetof(VolumetricInputs, no_move)},
     {'r', 'i', offsetof(VolumetricInputs, factor_x)},

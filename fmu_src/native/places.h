@@ -16,9 +16,9 @@ typedef struct {
     unsigned offset; /* in Memory; of an axis or a volumetric compensation: in its inputs or outputs */
 } Place;
 
-extern const Place MACHINE_PLACES[PLACES];
-extern const Place AXIS_PLACES[PLACES];
-extern const Place VOLUMETRIC_PLACES[PLACES];
+extern const Place axcomp_machine_places[PLACES];
+extern const Place axcomp_axis_places[PLACES];
+extern const Place axcomp_volumetric_places[PLACES];
 
 #ifdef __cplusplus
 }

@@ -50,7 +50,7 @@ static const char *path_in_uri(const char *location, int *is_uri)
     return location[0] == '/' && is_drive(location + 1) ? location + 1 : location;
 }
 
-int path_of(const char *location, const char *file, char *path)
+int axcomp_path_of(const char *location, const char *file, char *path)
 {
     int is_uri;
     size_t length = 0;
@@ -95,7 +95,7 @@ static FILE *open_file(const char *path)
 #endif
 }
 
-unsigned char *read_file(const char *path, size_t *size)
+unsigned char *axcomp_read_file(const char *path, size_t *size)
 {
     FILE *file = open_file(path);
     if (file == NULL) {

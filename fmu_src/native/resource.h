@@ -12,10 +12,10 @@ enum { PATH_LENGTH = 4096 };
 
 /* Turn a file URI (percent-encoded, any number of slashes) or a plain path into a path in UTF-8, with `file` behind it
  * unless that is NULL. Returns 0 if it does not fit into PATH_LENGTH bytes. */
-int path_of(const char *location, const char *file, char *path);
+int axcomp_path_of(const char *location, const char *file, char *path);
 
 /* Read a whole file; its bytes are to be freed. Returns NULL if it cannot be read. */
-unsigned char *read_file(const char *path, size_t *size);
+unsigned char *axcomp_read_file(const char *path, size_t *size);
 
 #ifdef __cplusplus
 }
