@@ -56,6 +56,8 @@ class Description:
         Date and time of generation, ISO 8601 ending in ``Z``.
     capabilities : mapping of str to bool
         Further attributes of ``CoSimulation``.
+    source_files : sequence of str
+        Files in ``sources`` to compile; none: it comes without sources.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Description:
     naming: str = "structured"
     generated: str = "2000-01-01T00:00:00Z"
     capabilities: Mapping[str, bool] = field(default_factory=dict)
+    source_files: Sequence[str] = ()
 
 
 CAPABILITIES = {
@@ -89,7 +92,11 @@ def model_description(description: Description, variables: Sequence[Variable], g
         variableNamingConvention=description.naming,
     )
     capabilities = {name: _text(value) for name, value in {**CAPABILITIES, **description.capabilities}.items()}
-    SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
+    co_simulation = SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
+    if description.source_files:
+        sources = SubElement(co_simulation, "SourceFiles")
+        for name in description.source_files:
+            SubElement(sources, "File", name=name)
     _add_units(root, variables)
     categories = SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():

@@ -5,36 +5,22 @@ from __future__ import annotations
 import importlib.metadata
 import importlib.util
 import os
-import tomllib
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
-from ..compile import CYCLE_TIME, compile_tables
-from ..compile_pool import CompileError
-from ..lists import Finding, read_machine
-from ..machine import Machine
+from ..compile import CYCLE_TIME
 from ..places import fmu_sources
 from .archive import BuildError, content_guid, file_bytes, generation_date, write_fmu
+from .content import PACKAGE, Built, output_path, read_content, version
 from .description import Description, model_description
 from .interface import FILE_NAME, Interface
-from .packed_lists import packed_lists
 from .plant import read_plant
 from .sources import renamed_sources
 from .variable import Variable
-from .variables import Naming, identifier, variables_of
+from .variables import Naming
 
-PACKAGE = Path(__file__).resolve().parents[1]
 STEP_OF_PLANT = 0.001
-
-
-class Built(NamedTuple):
-    """An FMU that was written."""
-
-    path: Path
-    machine: Machine
-    findings: tuple[Finding, ...]
-    variables: tuple[Variable, ...]
 
 
 def package_axcomp(
@@ -65,28 +51,12 @@ def package_axcomp(
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    machine, findings = read_machine(lists)
-    if not machine.axes:
-        raise BuildError("\n".join([*map(str, findings), f"{lists}: there is no axis in these lists."]))
-    try:
-        compile_tables(machine, cycle_time)
-    except CompileError as error:
-        raise BuildError(f"{lists}: {error}") from None
-    place, resources = packed_lists(Path(lists))
-    resources[FILE_NAME] = Interface.of(machine, place, cycle_time).to_json().encode()
-    variables = variables_of(machine, naming, cycle_time)
-    names = ", ".join(identifier(axis.name) for axis in machine.axes)
-    description = Description(
-        name="axcomp",
-        text=f"Axis compensations of {names}",
-        step_size=cycle_time,
-        version=version(),
-        naming=naming,
-        generated=generation_date(),
-        capabilities={"needsExecutionTool": external_tool},
-    )
-    path = _write("axcomp.fmu", output, description, variables, (fmu_sources() / "axcomp_slave.py", PACKAGE), resources)
-    return Built(path, machine, findings, variables)
+    content = read_content(lists, cycle_time, naming)
+    interface = Interface.of(content.machine, content.place, cycle_time)
+    resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
+    description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
+    sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)
+    return content.built(_write(output, description, content.variables, sources, resources))
 
 
 def package_plant(
@@ -112,21 +82,10 @@ def package_plant(
         capabilities={"needsExecutionTool": external_tool},
     )
     sources = (fmu_sources() / "plant_slave.py", fmu_sources() / "plant_model")
-    return _write("plant.fmu", output, description, variables, sources, {file.name: file_bytes(file)})
-
-
-def version() -> str:
-    """Return the version of this package: of the checkout it lies in, else of the installed one."""
-    project = PACKAGE.parent / "pyproject.toml"
-    if project.is_file():
-        values = tomllib.loads(project.read_text(encoding="utf-8")).get("project", {})
-        if values.get("name") == PACKAGE.name:
-            return str(values["version"])
-    return importlib.metadata.version(PACKAGE.name)
+    return _write(output, description, variables, sources, {file.name: file_bytes(file)})
 
 
 def _write(
-    name: str,
     output: str | os.PathLike[str],
     description: Description,
     variables: Sequence[Variable],
@@ -134,9 +93,7 @@ def _write(
     resources: Mapping[str, bytes],
 ) -> Path:
     """Put an FMU together: slave and package, resources, pythonfmu, model description."""
-    path = Path(output)
-    if path.is_dir():
-        path /= name
+    path = output_path(output, f"{description.name}.fmu")
     module, files = renamed_sources(*sources)
     files = {f"resources/{key}": value for key, value in {**files, **resources}.items()}
     files["resources/slavemodule.txt"] = module.encode()

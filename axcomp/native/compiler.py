@@ -63,19 +63,21 @@ def compiler_of(platform: str) -> list[str]:
 def compile_library(
     sources: Sequence[Path], output: Path, *, compiler: Sequence[str], platform: str, flags: Sequence[str] = ()
 ) -> None:
-    """Compile C sources into a shared library.
+    """Compile C sources into a shared library; the same bytes wherever sources and output lie.
 
     Raises
     ------
     CompilerError
-        With the compiler's own words, if it fails or complains.
+        With the compiler's own words, if it fails.
     """
-    linking = ["-shared", *([] if platform == "win64" else ["-fPIC", "-lm"])]
+    linking = ["-shared", *(["-s"] if platform == "win64" else ["-fPIC", "-lm"])]
     if platform == "linux64":
         linking += ["-Wl,-s", "-Wl,--build-id=none"]
-    command = [*compiler, *FLAGS, *flags, "-Werror", *map(str, sources), "-o", str(output), *linking]
+    absolute = [str(source.absolute()) for source in sources]
+    command = [*compiler, *FLAGS, *flags, *absolute, "-o", output.name, *linking]
     try:
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        # In the folder of the output: some linkers note its path in it, or put more files beside it.
+        result = subprocess.run(command, capture_output=True, text=True, check=False, cwd=output.parent)
     except OSError as error:
         raise CompilerError(f"the C compiler {compiler[0]} cannot be run: {error}") from None
     if result.returncode != 0:

@@ -36,7 +36,7 @@ def image_source(image: bytes) -> str:
     words = [f"0x{word:x}u" for (word,) in struct.iter_unpack("<Q", padded)]
     lines = [", ".join(words[i : i + WORDS_A_LINE]) for i in range(0, len(words), WORDS_A_LINE)]
     return (
-        "/* The tables of this machine; see image.h. */\n"
+        '/* The tables of this machine; see image.h. */\n#include "image.h"\n\n'
         f"const unsigned int axcomp_image_size = {len(image)}u;\n"
         f"const unsigned long long axcomp_image[{len(words)}] = {{\n    " + ",\n    ".join(lines) + "\n};\n"
     )

@@ -1,0 +1,113 @@
+"""What the FMUs of a machine have in common, whatever runs them: variables, description, tables, lists."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from ..compile import compile_tables
+from ..compile_pool import CompileError
+from ..kernel.records import Tables
+from ..lists import Finding, read_machine
+from ..machine import Machine
+from .archive import BuildError, generation_date
+from .description import Description
+from .packed_lists import packed_lists
+from .variable import Variable
+from .variables import Naming, identifier, variables_of
+
+NAME = "axcomp"
+"""Name of the model, and of its file."""
+
+PACKAGE = Path(__file__).resolve().parents[1]
+
+
+class Built(NamedTuple):
+    """A file that was written from the lists of a machine."""
+
+    path: Path
+    machine: Machine
+    findings: tuple[Finding, ...]
+    variables: tuple[Variable, ...]
+
+
+class Content(NamedTuple):
+    """What a machine's lists give for its FMU.
+
+    Attributes
+    ----------
+    machine : Machine
+        With at least one axis.
+    findings : tuple of Finding
+        From reading.
+    tables : Tables
+        Of the machine.
+    variables : tuple of Variable
+        The one list.
+    description : Description
+        Without what depends on the kind of FMU.
+    place : str
+        Of the lists in ``resources``: what ``read_machine`` must read there.
+    lists : mapping of str to bytes
+        Path in ``resources`` → contents.
+    """
+
+    machine: Machine
+    findings: tuple[Finding, ...]
+    tables: Tables
+    variables: tuple[Variable, ...]
+    description: Description
+    place: str
+    lists: Mapping[str, bytes]
+
+    def built(self, path: Path) -> Built:
+        """Return what a builder tells about the file it has written."""
+        return Built(path, self.machine, self.findings, self.variables)
+
+
+def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured") -> Content:
+    """Read and compile the lists of a machine.
+
+    Raises
+    ------
+    BuildError
+        If there is no axis in them, or they cannot be run or packed.
+    """
+    machine, findings = read_machine(lists)
+    if not machine.axes:
+        raise BuildError("\n".join([*map(str, findings), f"{lists}: there is no axis in these lists."]))
+    try:
+        tables = compile_tables(machine, cycle_time)
+    except CompileError as error:
+        raise BuildError(f"{lists}: {error}") from None
+    names = ", ".join(identifier(axis.name) for axis in machine.axes)
+    description = Description(
+        name=NAME,
+        text=f"Axis compensations of {names}",
+        step_size=cycle_time,
+        version=version(),
+        naming=naming,
+        generated=generation_date(),
+    )
+    variables = variables_of(machine, naming, cycle_time)
+    return Content(machine, findings, tables, variables, description, *packed_lists(Path(lists)))
+
+
+def output_path(output: str | os.PathLike[str], name: str) -> Path:
+    """Return the file to write: in a folder it has a name of its own."""
+    path = Path(output)
+    return path / name if path.is_dir() else path
+
+
+def version() -> str:
+    """Return the version of this package: of the checkout it lies in, else of the installed one."""
+    project = PACKAGE.parent / "pyproject.toml"
+    if project.is_file():
+        values = tomllib.loads(project.read_text(encoding="utf-8")).get("project", {})
+        if values.get("name") == PACKAGE.name:
+            return str(values["version"])
+    return importlib.metadata.version(PACKAGE.name)

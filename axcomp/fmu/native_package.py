@@ -1,0 +1,138 @@
+"""Packs the FMU that needs nothing: the translated kernel, compiled for some platforms, its tables and its C sources."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+from ..compile import CYCLE_TIME
+from ..native.compiler import PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
+from ..native.image import image_of, image_source
+from ..places import fmu_sources
+from .archive import BuildError, content_guid, file_bytes, write_fmu
+from .content import NAME, Built, Content, output_path, read_content
+from .description import model_description
+from .variables import Naming
+
+SOURCES = ("fmu.c", "image.c", "instance.c", "kernel.c", "model_exchange.c", "places.c", "resource.c")
+HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "places.h", "resource.h")
+"""Of the library, in ``fmu_src/native``; with them goes ``config.h``, which is another one in an FMU."""
+
+TABLES_SOURCE = "tables.c"
+CONFIGURATION = """\
+/* How this library gets its tables: they are among the sources (tables.c). No file is read.
+ *
+ * Whoever links the sources statically defines FMI2_FUNCTION_PREFIX as axcomp_; see fmi2.h. */
+#define AXCOMP_EMBEDDED
+"""
+
+IMAGE = "tables.bin"
+"""Name of the image in ``resources``, which the prebuilt libraries read."""
+
+
+class NoCompilerError(BuildError):
+    """There is no compiler that could build the FMU, or it has failed."""
+
+
+def package_native(
+    lists: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    cycle_time: float = CYCLE_TIME,
+    naming: Naming = "structured",
+    platforms: Sequence[str] = (),
+) -> Built:
+    """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
+
+    Parameters
+    ----------
+    lists : path
+        As in ``read_machine``. Everything it reads goes into the FMU.
+    output : path
+        File to write; replaced if it is there.
+    cycle_time : float
+        Of the position controller, s.
+    naming : str
+        ``structured`` or ``flat``.
+    platforms : sequence of str
+        Those of ``PLATFORMS`` that get a library; none: the one this Python runs on.
+
+    Raises
+    ------
+    NoCompilerError
+        If a library cannot be compiled.
+    BuildError
+        If there is no machine, it cannot be run, or the file cannot be written.
+    """
+    content = read_content(lists, cycle_time, naming)
+    files = {f"resources/{name}": data for name, data in content.lists.items()}
+    files.update(_libraries(platforms or (own_platform(),)))
+    description = replace(
+        content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
+    )
+    guid = _guid(content)
+    image = image_of(content.tables, guid)
+    files[f"resources/{IMAGE}"] = image
+    files.update((f"sources/{name}", _source(name)) for name in (*SOURCES, *HEADERS))
+    files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()
+    files["sources/config.h"] = CONFIGURATION.encode()
+    files["modelDescription.xml"] = model_description(description, content.variables, guid)
+    path = output_path(output, f"{NAME}.fmu")
+    write_fmu(path, files)
+    return content.built(path)
+
+
+def write_image(
+    lists: str | os.PathLike[str], output: str | os.PathLike[str], *, cycle_time: float = CYCLE_TIME
+) -> Built:
+    """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
+
+    Raises
+    ------
+    BuildError
+        If there is no machine, it cannot be run, or the file cannot be written.
+    """
+    content = read_content(lists, cycle_time)
+    path = output_path(output, IMAGE)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(image_of(content.tables, _guid(content)))
+    except OSError as error:
+        raise BuildError(f"{path} cannot be written: {error.strerror or error}") from None
+    return content.built(path)
+
+
+def _guid(content: Content) -> str:
+    """Return a guid that depends on variables and tables, not on date, compiler and platforms."""
+    description = model_description(replace(content.description, generated=""), content.variables, "")
+    return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.tables, "")})
+
+
+def _libraries(platforms: Sequence[str]) -> dict[str, bytes]:
+    files = {}
+    for platform in platforms:
+        try:
+            library = _library(platform, tuple(compiler_of(platform)))
+        except CompilerError as error:
+            raise NoCompilerError(str(error)) from None
+        files[f"binaries/{platform}/{NAME}{PLATFORMS[platform].suffix}"] = library
+    return files
+
+
+@cache
+def _library(platform: str, compiler: tuple[str, ...]) -> bytes:
+    """Return the library for a platform; it is the same for every machine."""
+    folder = fmu_sources() / "native"
+    with tempfile.TemporaryDirectory() as work:
+        output = Path(work) / f"{NAME}{PLATFORMS[platform].suffix}"
+        compile_library([folder / name for name in SOURCES], output, compiler=compiler, platform=platform)
+        return output.read_bytes()
+
+
+def _source(name: str) -> bytes:
+    """Return a source with the same line ends on every system."""
+    return file_bytes(fmu_sources() / "native" / name).replace(b"\r\n", b"\n")
