@@ -9,16 +9,28 @@ from pathlib import Path
 
 from ..compile import CYCLE_TIME
 from ..fmu.archive import BuildError
-from ..fmu.package import Built, package_axcomp, package_plant
+from ..fmu.content import Built
+from ..fmu.native_package import NoCompilerError, package_native, write_image
+from ..fmu.package import package_axcomp, package_plant
+from ..native.compiler import PLATFORMS
 from ..places import models
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
 What there is to say about the lists is printed; what is wrong in them does not act, but stops nothing.
 
+The native FMU holds a library for each platform and its C sources, and needs nothing. The machine's own C compiler
+serves the machine itself; with the compiler of axcomp[cross] all platforms can be asked for. The FMU of
+--runtime python needs no compiler, but Python in the host.
+
+--image writes the tables of the lists, which a running native FMU takes by its input reload.
+
 examples:
   axcomp build
   axcomp build --machine lists/hochlauf.lis --output machine.fmu --cycle-time 0.002
+  axcomp build --platforms linux64,win64,darwin64
+  axcomp build --runtime python
+  axcomp build --machine lists/hochlauf.lis --image new.bin
 """
 
 
@@ -34,7 +46,19 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--machine", type=Path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
     )
-    parser.add_argument("--output", type=Path, metavar="FILE", help="default: axcomp.fmu in the current folder")
+    outputs = parser.add_mutually_exclusive_group()
+    outputs.add_argument("--output", type=Path, metavar="FILE", help="default: axcomp.fmu in the current folder")
+    outputs.add_argument("--image", type=Path, metavar="FILE", help="write an image of the tables, and no FMU")
+    parser.add_argument(
+        "--runtime", choices=("native", "python"), default="native", help="what runs in the FMU (default: native)"
+    )
+    parser.add_argument(
+        "--platforms",
+        type=_platforms,
+        default=(),
+        metavar="NAMES",
+        help=f"of the native FMU: {','.join(PLATFORMS)} or some of them (default: this machine's)",
+    )
     parser.add_argument(
         "--cycle-time",
         type=float,
@@ -51,36 +75,53 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--no-external-tool",
         action="store_true",
-        help="do not say in the FMU that it needs Python: some hosts refuse what needs something",
+        help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
     )
     parser.set_defaults(do=_do_build)
 
 
+def _platforms(text: str) -> tuple[str, ...]:
+    names = tuple(dict.fromkeys(name.strip() for name in text.split(",")))
+    for name in names:
+        if name not in PLATFORMS:
+            raise argparse.ArgumentTypeError(f"there is no platform {name!r}; there are {', '.join(PLATFORMS)}")
+    return names
+
+
 def _do_build(args: argparse.Namespace) -> int:
-    external_tool = not args.no_external_tool
     example = models() / "three_axis"
     try:
-        built = package_axcomp(
-            args.machine or example,
-            args.output or Path.cwd(),
-            cycle_time=args.cycle_time,
-            naming=args.naming,
-            external_tool=external_tool,
-        )
+        built = _build(args, args.machine or example)
         for finding in built.findings:
             print(finding, file=sys.stderr)
         for line in _summary(built):
             print(line)
-        if args.machine is None and args.output is None:
-            print(package_plant(example, Path.cwd(), external_tool=external_tool).name)
+        if args.machine is None and args.output is None and args.image is None:
+            print(package_plant(example, Path.cwd(), external_tool=not args.no_external_tool).name)
+    except NoCompilerError as error:
+        print(f"axcomp build: {error}\n--runtime python needs no compiler.", file=sys.stderr)
+        return 1
     except BuildError as error:
         print(f"axcomp build: {error}", file=sys.stderr)
         return 1
     return 0
 
 
+def _build(args: argparse.Namespace, lists: Path) -> Built:
+    if args.image is not None:
+        return write_image(lists, args.image, cycle_time=args.cycle_time)
+    output = args.output or Path.cwd()
+    if args.runtime == "native":
+        return package_native(lists, output, cycle_time=args.cycle_time, naming=args.naming, platforms=args.platforms)
+    if args.platforms:
+        raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
+    return package_axcomp(
+        lists, output, cycle_time=args.cycle_time, naming=args.naming, external_tool=not args.no_external_tool
+    )
+
+
 def _summary(built: Built) -> Iterator[str]:
-    """Say what the FMU holds, axis by axis."""
+    """Say what the file holds, axis by axis."""
     count = {causality: sum(v.causality == causality for v in built.variables) for causality in ("input", "output")}
     yield f"{built.path.name}: {count['input']} inputs, {count['output']} outputs"
     for axis in built.machine.axes:

@@ -51,11 +51,13 @@ def _do_demo(args: argparse.Namespace) -> int:
     from ..demo.run import BuildError, DemoError, demonstrate  # noqa: PLC0415
 
     try:
-        machine, results = demonstrate(args.machine or models() / "three_axis", args.output)
+        machine, results, note = demonstrate(args.machine or models() / "three_axis", args.output)
         draw(args.output / PICTURE, machine, results, CYCLE_TIME)
     except (BuildError, DemoError, OSError) as error:
         print(f"axcomp demo: {error}", file=sys.stderr)
         return 1
+    if note:
+        print(f"axcomp demo: {note}", file=sys.stderr)
     print(table(results))
     print(f"\n{NOTE}\n{args.output / PICTURE}")
     return 0

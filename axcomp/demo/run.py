@@ -15,6 +15,8 @@ from fmpy import extract
 
 from ..compile import CYCLE_TIME
 from ..fmu.archive import BuildError
+from ..fmu.content import Built
+from ..fmu.native_package import NoCompilerError, package_native
 from ..fmu.package import package_axcomp, package_plant
 from ..fmu.plant import read_plant
 from ..machine import Machine
@@ -33,10 +35,11 @@ class DemoError(Exception):
 
 
 class Demo(NamedTuple):
-    """What the demonstration has shown."""
+    """What the demonstration has shown; ``note`` says why it was not shown with the native FMU, "" if it was."""
 
     machine: Machine
     results: tuple[Outcome, ...]
+    note: str = ""
 
 
 class Run(NamedTuple):
@@ -59,7 +62,7 @@ def demonstrate(lists: Path, output: Path) -> Demo:
     model = lists if lists.is_dir() else lists.parent
     variables, _ = read_plant(model)
     output.mkdir(parents=True, exist_ok=True)
-    built = package_axcomp(lists, output / f"{COMPENSATION}.fmu")
+    built, note = _compensation(lists, output / f"{COMPENSATION}.fmu")
     plant = package_plant(model, output / f"{PLANT}.fmu")
     machine = built.machine
     known = {variable.name.rpartition(".")[0] for variable in variables}
@@ -80,7 +83,15 @@ def demonstrate(lists: Path, output: Path) -> Demo:
             extract(path, folder / name)
         records = _simulate(folder, machine, runs, TOOL_LENGTH if knows_tip and machine.volumetric else None)
     pairs = [(records[without], records[compensated]) for without, compensated in of_trial]
-    return Demo(machine, tuple(outcomes(machine, trials, pairs)))
+    return Demo(machine, tuple(outcomes(machine, trials, pairs)), note)
+
+
+def _compensation(lists: Path, path: Path) -> tuple[Built, str]:
+    """Build the native FMU; where there is no compiler, the one that runs in Python, and say so."""
+    try:
+        return package_native(lists, path), ""
+    except NoCompilerError as error:
+        return package_axcomp(lists, path), f"{error}\nUntil then axcomp.fmu runs in Python."
 
 
 def _runs(machine: Machine, trials: Sequence[Trial]) -> tuple[list[Run], list[tuple[int, int]]]:

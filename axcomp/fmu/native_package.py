@@ -1,4 +1,4 @@
-"""Packs the FMU that needs nothing: the translated kernel, compiled for some platforms, its tables and its C sources."""
+"""Packs the FMU that needs nothing: the translated kernel as libraries and as sources, and the tables."""
 
 from __future__ import annotations
 

@@ -43,12 +43,33 @@ STEPS = """\
   into steps therefore changes nothing at the instants.
 * The outputs read after a step belong to the inputs set before it: FMI 2.0 co-simulation has no feedthrough inside a
   step. At the end of initialization they belong to the start values.
-* `reload`: its rising edge acts at the beginning of a step. Lists with an error, with other axes or with a compensation
-  that was not there before are refused as a whole. A relative `update_path` counts from the host's current folder.
-* Get, set and serialize state bring everything back, lists taken by `reload` included. A serialized state fits FMUs of
-  the same version and machine only.
-* The lists in `resources/` of an unpacked FMU are read at instantiation: change them, and the next instance uses them.
-  The variables stay as they are: a new compensation acts, but its variables are not there.
+* `reload`: its rising edge acts at the beginning of a step. What it reads is refused as a whole when it has an error,
+  other axes or a compensation that was not there before. A relative `update_path` counts from the host's current
+  folder.
+* Get, set and serialize state bring everything back. A serialized state fits FMUs of the same version and machine
+  only.
+
+## Native and Python
+
+`axcomp build` makes the native FMU: libraries for the platforms asked for, and C sources. With `--runtime python` it
+makes one whose libraries start Python. Variables, value references and results are the same in every bit; these differ:
+
+| | native | `--runtime python` |
+| --- | --- | --- |
+| Needs in the host | nothing | Python 3.11 or later in its process, as FMPy has |
+| `update_path` | an image, made by `axcomp build --image FILE`, which shows the findings | a start-up list, \
+its folder or a single list; empty: those in `resources/` |
+| Changed lists in `resources/` | are not read: they travel along; build again | act in the next instance; a new \
+compensation acts, but its variables are not there |
+| Serialized state after `reload` | comes back in instances that have read the same images | \
+comes back in any instance |
+| A call that cannot be carried out | returns an error, and the log says why | sets `NAME.error`; the log and standard \
+error say why |
+| Unpacked under any path | yes | not where it holds one of `ü + ( ) [ ] # , %`: pythonfmu's library fails there |
+
+The native FMU's tables lie in `resources/tables.bin`; it belongs to the guid, so that of another FMU is refused.
+`fmpy compile axcomp.fmu`, or a host that takes source-code FMUs, compiles the sources with the tables in them
+(`tables.c`): such a library reads no file. It allocates memory when an instance or a state is made, not in steps.
 
 ## Errors
 
@@ -56,16 +77,6 @@ STEPS = """\
 
 | Number | Meaning |
 | ---: | --- |
-"""
-
-LIMITS = """
-No call fails: what cannot be carried out, such as a value reference that does not exist, sets `NAME.error`, and the log
-and standard error say why.
-
-## Where the FMU does not run
-
-It is a Python program in a pythonfmu shell: the host must have Python 3.11 or later in its process, as FMPy has.
-pythonfmu's own library fails when the FMU is unpacked under a path with one of `ü + ( ) [ ] # , %`.
 """
 
 
@@ -84,7 +95,7 @@ def reference_page() -> str:
     tables = f"## Of the machine\n\n{machine}\n\n## Of every axis\n\n{axis}\n{kinds}\n"
     tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves\n\n{volumetric}\n"
     tables += f"\n## Of every volumetric compensation\n\n{volumetrics}\n"
-    return f"{head}\n{tables}\n{STEPS}{errors}\n{LIMITS}"
+    return f"{head}\n{tables}\n{STEPS}{errors}\n"
 
 
 def _table(declarations: Iterable[Declaration], prefix: str) -> str:

@@ -65,13 +65,13 @@ class Controls:
 OF_MACHINE = (
     Declaration(0, "reset", "input", False, "Reset: manual compensations off, errors cleared"),
     Declaration(1, "program_end", "input", False, "End of the NC program: manual compensations off"),
-    Declaration(2, "reload", "input", False, "A rising edge reads the lists in update_path again"),
+    Declaration(2, "reload", "input", False, "A rising edge reads what update_path names"),
     Declaration(
         3,
         "update_path",
         "parameter",
         "",
-        "Start-up list, its folder or a single list, read at reload; empty: the lists in resources",
+        "What reload reads: an image of tables; where Python runs in the FMU, lists (empty: those in resources)",
         variability="tunable",
     ),
     Declaration(

@@ -82,7 +82,7 @@ def test_a_missing_pythonfmu_is_a_sentence(
     lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
-    assert main(["build", "--machine", str(lists), "--output", str(tmp_path)]) == 1
+    assert main(["build", "--runtime", "python", "--machine", str(lists), "--output", str(tmp_path)]) == 1
     assert "pip install 'pythonfmu" in capsys.readouterr().err
 
 
