@@ -24,7 +24,7 @@ def check(demo: Demo) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "rows"), [("three_axis", 13), ("rotary_table", 3)])
+@pytest.mark.parametrize(("name", "rows"), [("three_axis", 13), ("rotary_table", 3), ("five_axis", 12)])
 def test_errors_shrink_as_promised(name: str, rows: int, tmp_path: Path) -> None:
     demo = demonstrate(models() / name / "hochlauf.lis", tmp_path / "new")
     assert len(demo.results) == rows
@@ -50,6 +50,16 @@ def test_inverted_tables_make_errors_larger(tmp_path: Path) -> None:
     lists.write_text("\n".join(lines), encoding="utf-8")
     demo = demonstrate(model, tmp_path / "out")
     assert all(result.ratio > 1.8 for result in demo.results if result.trial.kind == "leadscrew")
+
+
+@pytest.mark.slow
+def test_a_negated_volumetric_correction_doubles_the_error_of_the_tool_tip(tmp_path: Path) -> None:
+    model = tmp_path / "negated"
+    shutil.copytree(models() / "five_axis", model)
+    for path in model.glob("vol_comp*.lis"):
+        path.write_text("negate XYZ\n" + path.read_text(encoding="utf-8"), encoding="utf-8")
+    demo = demonstrate(model, tmp_path / "out")
+    assert all(result.ratio == pytest.approx(2.0, abs=0.1) for result in demo.results)
 
 
 def test_a_machine_without_a_plant_is_refused_with_a_sentence(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import fmpy
 import numpy as np
 import pytest
 from fmu_host import CYCLE, Host, in_child
@@ -97,3 +98,40 @@ def test_impossible_calls_are_survived_again_and_again_and_told(fmu: Path) -> No
     messages, position = in_child(do_what_cannot_be_done, fmu)
     assert position == pytest.approx(2.0, abs=1e-6)
     assert any("9999" in text for *_, text in messages)
+
+
+FIVE_AXIS = models() / "five_axis"
+FIVE = ("X", "Y", "Z", "B", "C")
+
+
+def follow_five_axes(fmu: Path) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any], dict[str, Any]]:
+    way = [
+        {f"{name}.{k}": 0.01 * i * (n + 1) for n, name in enumerate(FIVE) for k in ("setpoint", "commanded_position")}
+        for i in range(150)
+    ]
+    with Host(fmu, parameters={"tool_length": 120.0}) as host:
+        start = host.outputs()
+        moved = host.run(way)[-1]
+        state = host.slave.getFMUstate()
+        nonsense = host.step({"tool_length": math.nan, "B.commanded_position": math.inf})
+        host.step({"tool_length": 80.0})
+        host.slave.setFMUstate(state)
+        return start, moved, nonsense, host.outputs()
+
+
+def test_the_tool_tip_is_where_the_rigid_bodies_put_it(tmp_path: Path) -> None:
+    start, moved, nonsense, restored = in_child(follow_five_axes, package_plant(FIVE_AXIS, tmp_path))
+    bodies: Any = load_plant(FIVE_AXIS).bodies  # type: ignore[attr-defined]
+    tip = bodies.tip(120.0)
+    assert [start[f"tcp.{k}"] for k in "xyz"] == [0.0, 0.0, -120.0]
+    true = [moved[f"{name}.true_position"] for name in FIVE]
+    assert tuple(moved[f"tcp.{k}"] for k in "xyz") == bodies.place(tip, true)
+    commanded = [0.01 * 149 * (n + 1) for n in range(5)]
+    assert tuple(moved[f"tcp.nominal_{k}"] for k in "xyz") == bodies.nominal_place(tip, commanded)
+    assert all(nonsense[f"tcp.nominal_{k}"] == moved[f"tcp.nominal_{k}"] for k in "xyz")
+    assert restored == moved
+
+
+def test_a_plant_without_rigid_bodies_has_no_tool_tip(fmu: Path) -> None:
+    names = {variable.name for variable in fmpy.read_model_description(fmu).modelVariables}
+    assert len(names) == 7 * len(AXES)

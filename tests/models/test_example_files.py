@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.interpolate import RegularGridInterpolator
 
+from axcomp.engine import Engine
 from axcomp.examples.files import EXPECTED, INPUT, read_csv, write_expected, write_input, write_lists
 from axcomp.examples.machines import MACHINES
 from axcomp.examples.trajectories import TRAJECTORIES
 from axcomp.lists import read_machine
 from axcomp.lists.findings import Severity
 from axcomp.machine import KINDS, Crosstalk, CrosstalkCurve
+from axcomp.measurement.simulated import load_plant
 from axcomp.places import models
 
 MODELS = sorted(TRAJECTORIES)
@@ -68,6 +71,66 @@ def test_rotary_table_is_a_modulo_axis_whose_input_goes_over_the_end_both_ways()
     steps = np.diff(read_csv(models() / "rotary_table" / INPUT)["C.setpoint"])
     assert np.any(steps > 350.0)
     assert np.any(steps < -350.0)
+
+
+def test_five_axis_has_a_cartesian_and_a_rotary_compensation_in_either_format() -> None:
+    machine = read_machine(models() / "five_axis").machine
+    cartesian, rotary = machine.volumetric
+    assert (cartesian.chain, cartesian.workpiece_axes, cartesian.files[0]) == ("YXZ", 0, "vol_comp0.csv")
+    assert (rotary.chain, rotary.workpiece_axes, rotary.files[0]) == ("CBYXZ", 2, "vol_comp1.exc")
+    assert {error.name[-1] for error in cartesian.errors} == set("XYZ")
+    assert {error.name[-1] for error in rotary.errors} == set("BC")
+    assert cartesian.tool_orientation == rotary.tool_orientation == (0.0, 0.0, -1.0)
+    formats = [(models() / "five_axis" / f"vol_comp{k}.lis").read_text(encoding="utf-8") for k in (0, 1)]
+    assert ["ETALON_EXCHANGE" in text for text in formats] == [False, True]
+    assert [axis.modulo is not None for axis in machine.axes] == [False, False, False, False, True]
+    assert machine == MACHINES["five_axis"](load_plant(models() / "five_axis"))
+
+
+def tip_errors(plant: Any, raw: np.ndarray, corrected: np.ndarray, tool_length: float) -> np.ndarray:
+    """How far the plant's tool tip is off, µm, shape (rows, 3); positions of all axes, shape (rows, axes)."""
+    tip = plant.bodies.tip(tool_length)
+    errors = []
+    for wanted, driven in zip(raw.tolist(), corrected.tolist(), strict=True):
+        plant.rest_at(driven)
+        errors.append(np.subtract(plant.place(tip), plant.bodies.nominal_place(tip, wanted)))
+    return 1e3 * np.array(errors)
+
+
+def test_five_axis_errors_shrink_to_a_half_percent_all_over_the_work_volume() -> None:
+    model = models() / "five_axis"
+    plant: Any = load_plant(model)
+    places = np.random.default_rng(1).uniform([-300, -250, -400, -100, 0], [300, 250, 0, 100, 360], size=(200, 5))
+    engine = Engine(model)
+    given = {f"{name}.setpoint": column for name, column in zip(plant.names, places.T, strict=True)}
+    result = engine.run({**given, "tool_length": np.full(len(places), 120.0)})
+    corrected = np.column_stack([result[f"{name}.corrected_setpoint"] for name in plant.names])
+    without = np.linalg.norm(tip_errors(plant, places, places, 120.0), axis=1)
+    compensated = np.linalg.norm(tip_errors(plant, places, corrected, 120.0), axis=1)
+    assert without.mean() == pytest.approx(33.7, abs=0.1)
+    assert without.max() == pytest.approx(81.7, abs=0.1)
+    assert compensated.mean() < 0.12
+    assert compensated.max() < 0.25
+
+
+def test_five_axis_expected_output_leads_the_tool_along_its_way_over_the_end_of_the_turn() -> None:
+    model = models() / "five_axis"
+    plant: Any = load_plant(model)
+    given, expected = read_csv(model / INPUT), read_csv(model / EXPECTED)
+    raw = np.column_stack([given[f"{name}.setpoint"] for name in plant.names])[:-1]
+    corrected = np.column_stack([expected[f"{name}.corrected_setpoint"] for name in plant.names])[1:]
+    steps = np.diff(raw[:, -1])
+    assert np.any(steps > 350.0)
+    assert np.any(steps < -350.0)
+    error = np.linalg.norm(tip_errors(plant, raw, corrected, given["tool_length"][0]), axis=1)
+    commanded = given["volumetric[1].enable"][:-1] == 1.0
+    switching = np.convolve(commanded == 0.0, np.ones(41), "same") > 0
+    assert np.max(error[~switching]) < 0.25
+    assert np.max(error[~commanded]) > 10.0
+    assert set(expected["volumetric[0].active"]) == {1.0}
+    assert set(expected["volumetric[1].active"]) == {0.0, 1.0}
+    # A switch takes its 20 cycles, and so it never jumps.
+    assert np.max(np.abs(np.diff(corrected - raw, axis=0))) < 4e-3
 
 
 def test_expected_plane_correction_is_bilinear_in_the_raw_setpoints() -> None:
