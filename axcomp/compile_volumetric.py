@@ -109,6 +109,8 @@ class _Compiler:
         table.chain_length = len(chain)
         table.chain[: len(chain)] = [LETTERS.index(letter) for letter in chain]
         table.workpiece_axes = volumetric.workpiece_axes
+        from_tool = [letter for letter in reversed(chain) if letter in LINEAR]
+        table.column[:] = [from_tool.index(letter) for letter in LINEAR]
         for letter, number in volumetric.axes:
             try:
                 table.axis[LETTERS.index(letter)] = self.machine.index_of(number)
@@ -151,6 +153,8 @@ class _Compiler:
             else:
                 constants.append((ERRORS.index(error.name), error.values[0]))
         table = self.table
+        acting = {error.name[-1] for error in self.volumetric.errors if any(error.values)}
+        table.exact[:] = [letter not in acting for letter in LETTERS]
         table.constants = len(constants)
         table.constant = self._append([float(number) for number, _ in constants])
         self._append([value for _, value in constants])

@@ -39,12 +39,26 @@ def errors_at(
             x[d] = position[block.argument[d]]
             if block.folded[d]:
                 x[d] = fold(x[d], 0.0, FULL_TURN)
-        if block.interpolation == INTERPOLATE_GRID:
+        if block.interpolation == INTERPOLATE_GRID and block.arguments == 1 and block.points[0] > 1:
+            add_from_line(pool, block, x[0], errors)
+        elif block.interpolation == INTERPOLATE_GRID:
             add_from_grid(pool, block, x, errors)
         elif block.interpolation == INTERPOLATE_SCATTER:
             add_from_scatter(pool, block, x, errors)
         else:
             add_from_path(pool, block, x, errors)
+
+
+def add_from_line(pool: Vec, block: ErrorBlock, x: float, errors: Annotated[list[float], ERRORS]) -> None:
+    """Add what ``add_from_grid`` adds, for one argument: most tables have no more."""
+    first = block.knots[0]
+    u = min(max(x, pool[first]), pool[first + block.points[0] - 1])
+    i = find_cell(pool, block, 0, u)
+    share = (u - pool[first + i]) / (pool[first + i + 1] - pool[first + i])
+    near = block.values + i * block.errors
+    far = near + block.errors
+    for p in range(block.errors):
+        errors[int(pool[block.error + p])] += (1.0 - share) * pool[near + p] + share * pool[far + p]
 
 
 def add_from_grid(

@@ -22,7 +22,7 @@ from .trigonometry import HALF_PI, cosine, sine
 from .volumetric_records import ERRORS, ERRORS_OF_AXIS, LETTERS, LINEAR, VolumetricTable
 
 DEGREE = HALF_PI / 90.0
-FRAME = 12  # W, then the columns of J that belong to X, Y and Z
+FRAME = 12  # W, then the columns of J: those of X, Y and Z in their order from the tool
 RESIDUAL = 1e-9  # mm
 ITERATIONS = 5
 SINGULAR = 1e-6  # volume spanned by the columns of J, which are unit vectors
@@ -47,21 +47,22 @@ def correction_at(
         return False
     inverse = zeros(9)
     invert(actual, inverse)
-    for d in range(LINEAR):
-        correction[d] = 0.0
     residual = zeros(LINEAR)
+    change = zeros(LINEAR)  # of the linear axes in the order of the columns of J
     for _ in range(ITERATIONS):
         largest = 0.0
         for d in range(LINEAR):
             residual[d] = (actual[d] - nominal[d]) + (
-                actual[3 + d] * correction[0] + actual[6 + d] * correction[1] + actual[9 + d] * correction[2]
+                actual[3 + d] * change[0] + actual[6 + d] * change[1] + actual[9 + d] * change[2]
             )
             largest = max(largest, abs(residual[d]))
         if largest < RESIDUAL:
+            for d in range(LINEAR):
+                correction[d] = change[table.column[d]]
             return True
-        turn(inverse, residual, 0)
+        turn(inverse, residual)
         for d in range(LINEAR):
-            correction[d] -= residual[d]
+            change[d] -= residual[d]
     return False
 
 
@@ -80,49 +81,77 @@ def carry_to_workpiece(
     m = zeros(9)
     o = zeros(3)
     along = zeros(3)
+    columns = 1  # of the frames that are in use
     for k in range(table.chain_length):
         place = table.chain_length - 1 - k
         letter = table.chain[place]
         q = position[letter]
         side = -1.0 if place < table.workpiece_axes else 1.0
         if letter < LINEAR:
+            at = 3 * columns
             for d in range(LINEAR):
-                along[d] = table.direction[3 * letter + d]
-                nominal[d] += side * along[d] * q
-                nominal[3 + 3 * letter + d] = side * along[d]
-            linear_axis(letter, q, errors, m, o, along)
+                along[d] = side * table.direction[3 * letter + d]
+                nominal[d] += along[d] * q
+                nominal[at + d] = along[d]
+            if table.exact[letter]:
+                for d in range(LINEAR):
+                    actual[d] += along[d] * q
+                    actual[at + d] = along[d]
+            else:
+                linear_axis(letter, side * q, errors, m, o, along)
+                if side < 0.0:
+                    for d in range(LINEAR):
+                        actual[at + d] = along[d]
+                    transpose(m)
+                    apply(m, o, side, columns + 1, actual)
+                else:
+                    apply(m, o, side, columns, actual)
+                    for d in range(LINEAR):
+                        actual[at + d] = along[d]
+            columns += 1
         else:
-            nominal_rotary_axis(table, letter, q, m, o)
-            apply(m, o, side, nominal)
-            rotary_axis(table, letter, q, errors, m, o)
-        if letter < LINEAR and side < 0.0:
-            for d in range(LINEAR):
-                actual[3 + 3 * letter + d] = -along[d]
-        apply(m, o, side, actual)
-        if letter < LINEAR and side > 0.0:
-            for d in range(LINEAR):
-                actual[3 + 3 * letter + d] = along[d]
+            nominal_rotary_axis(table, letter, side * q, m, o)
+            apply(m, o, 1.0, columns, nominal)
+            if table.exact[letter]:
+                apply(m, o, 1.0, columns, actual)
+            else:
+                rotary_axis(table, letter, q, errors, m, o)
+                if side < 0.0:
+                    transpose(m)
+                apply(m, o, side, columns, actual)
 
 
 def apply(
     m: Annotated[list[float], 9],
     o: Annotated[list[float], 3],
     side: float,
+    columns: int,
     frame: Annotated[list[float], FRAME],
 ) -> None:
-    """Map a frame by x ↦ M·x + o, or by its inverse where ``side`` is negative; ``m`` becomes the matrix used."""
+    """Map the first columns of a frame by x ↦ M·x + o; if ``side`` is negative by x ↦ M·(x − o)."""
     if side < 0.0:
-        for i in range(LINEAR):
-            frame[i] -= o[i]
-            for j in range(i):
-                upper = m[3 * j + i]
-                m[3 * j + i] = m[3 * i + j]
-                m[3 * i + j] = upper
-    for k in range(4):
-        turn(m, frame, 3 * k)
+        for d in range(LINEAR):
+            frame[d] -= o[d]
+    xx = m[0]
+    xy = m[1]
+    xz = m[2]
+    yx = m[3]
+    yy = m[4]
+    yz = m[5]
+    zx = m[6]
+    zy = m[7]
+    zz = m[8]
+    for k in range(columns):
+        at = 3 * k
+        x = frame[at]
+        y = frame[at + 1]
+        z = frame[at + 2]
+        frame[at] = xx * x + xy * y + xz * z
+        frame[at + 1] = yx * x + yy * y + yz * z
+        frame[at + 2] = zx * x + zy * y + zz * z
     if side > 0.0:
-        for i in range(LINEAR):
-            frame[i] += o[i]
+        for d in range(LINEAR):
+            frame[d] += o[d]
 
 
 def linear_axis(
@@ -133,10 +162,14 @@ def linear_axis(
     o: Annotated[list[float], 3],
     along: Annotated[list[float], 3],
 ) -> None:
-    """Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one."""
+    """Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one.
+
+    At the workpiece ``q`` and ``along`` both have the opposite sign.
+    """
     e = ERRORS_OF_AXIS * letter
-    rotation(errors[e + 3], errors[e + 4], errors[e + 5], m)
-    turn(m, along, 0)
+    if errors[e + 3] != 0.0 or errors[e + 4] != 0.0 or errors[e + 5] != 0.0:
+        rotation(errors[e + 3], errors[e + 4], errors[e + 5], m)
+        turn(m, along)
     for d in range(LINEAR):
         o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d])
     rotation(errors[e + 9], errors[e + 10], errors[e + 11], m)
@@ -171,15 +204,15 @@ def rotary_axis(
     if table.alternative:
         # L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …).
         rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt)
-        turn(tilt, axis, 0)
+        turn(tilt, axis)
         rotation_about(axis, q, m)
         for d in range(LINEAR):
             o[d] = -errors[e + d]
-        turn(m, o, 0)
+        turn(m, o)
         for d in range(LINEAR):
             o[d] += errors[e + d]
         rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt)
-        turn(tilt, o, 0)
+        turn(tilt, o)
         for d in range(LINEAR):
             o[d] += errors[e + 6 + d]
     else:
@@ -199,7 +232,7 @@ def about_center(
     for d in range(LINEAR):
         center[d] = table.center[3 * (letter - LINEAR) + d]
         o[d] += center[d]
-    turn(m, center, 0)
+    turn(m, center)
     for d in range(LINEAR):
         o[d] -= center[d]
 
@@ -246,14 +279,23 @@ def rotation_about(e: Annotated[list[float], 3], q: float, m: Annotated[list[flo
     m[7] += s * e[0]
 
 
-def turn(m: Annotated[list[float], 9], v: Annotated[list[float], 3], at: int) -> None:
-    """Multiply the vector at v[at …] by a matrix."""
-    x = v[at]
-    y = v[at + 1]
-    z = v[at + 2]
-    v[at] = m[0] * x + m[1] * y + m[2] * z
-    v[at + 1] = m[3] * x + m[4] * y + m[5] * z
-    v[at + 2] = m[6] * x + m[7] * y + m[8] * z
+def turn(m: Annotated[list[float], 9], v: Annotated[list[float], 3]) -> None:
+    """Multiply a vector by a matrix."""
+    x = v[0]
+    y = v[1]
+    z = v[2]
+    v[0] = m[0] * x + m[1] * y + m[2] * z
+    v[1] = m[3] * x + m[4] * y + m[5] * z
+    v[2] = m[6] * x + m[7] * y + m[8] * z
+
+
+def transpose(m: Annotated[list[float], 9]) -> None:
+    """Replace a rotation by its inverse."""
+    for i in range(LINEAR):
+        for j in range(i):
+            upper = m[3 * j + i]
+            m[3 * j + i] = m[3 * i + j]
+            m[3 * i + j] = upper
 
 
 def multiply_from_left(a: Annotated[list[float], 9], m: Annotated[list[float], 9]) -> None:

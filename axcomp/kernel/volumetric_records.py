@@ -65,6 +65,8 @@ class VolumetricTable:
     chain_length: int
     chain: Annotated[list[int], LETTERS]  # letters from the workpiece to the tool
     workpiece_axes: int
+    exact: Annotated[list[bool], LETTERS]  # the axis has no errors
+    column: Annotated[list[int], LINEAR]  # how many linear axes are between X, Y or Z and the tool
     alternative: bool
     tool_position: Annotated[list[float], LINEAR]
     tool_orientation: Annotated[list[float], LINEAR]

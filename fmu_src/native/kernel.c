@@ -38,6 +38,7 @@ static double build_up(const FrictionTable *table, FrictionState *state, double 
 static double decay_predicted(const FrictionTable *table, double velocity, double acceleration, double cycle_time);
 static double grid_coordinate(double x, double start, double interval, int32_t points);
 static int32_t grid_cell(double u, int32_t points);
+static void add_from_line(const double *pool, const ErrorBlock *block, double x, double errors[ERRORS]);
 static void add_from_grid(const double *pool, const ErrorBlock *block, const double x[LETTERS], double errors[ERRORS]);
 static void add_from_scatter(const double *pool, const ErrorBlock *block, const double x[LETTERS],
         double errors[ERRORS]);
@@ -48,14 +49,15 @@ static double square_distance(const double *pool, const ErrorBlock *block, int32
 static void carry_to_workpiece(const VolumetricTable *table, const double position[LETTERS], double tool_length,
         const double errors[ERRORS], double nominal[FRAME], double actual[FRAME]);
 static void invert(const double frame[FRAME], double inverse[9]);
-static void turn(const double m[9], double v[3], int32_t at);
+static void turn(const double m[9], double v[3]);
 static double volume(const double frame[FRAME]);
-static void apply(double m[9], const double o[3], double side, double frame[FRAME]);
+static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3]);
+static void apply(const double m[9], const double o[3], double side, int32_t columns, double frame[FRAME]);
 static void linear_axis(int32_t letter, double q, const double errors[ERRORS], double m[9], double o[3],
         double along[3]);
-static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3]);
 static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, const double errors[ERRORS],
         double m[9], double o[3]);
+static void transpose(double m[9]);
 static void rotation(double a, double b, double c, double m[9]);
 static void rotation_about(const double e[3], double q, double m[9]);
 static void about_center(const VolumetricTable *table, int32_t letter, const double m[9], double o[3]);
@@ -790,13 +792,29 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
                 x[d] = fold(x[d], 0.0, FULL_TURN);
             }
         }
-        if (block->interpolation == INTERPOLATE_GRID) {
+        if (block->interpolation == INTERPOLATE_GRID && block->arguments == 1 && block->points[0] > 1) {
+            add_from_line(pool, block, x[0], errors);
+        } else if (block->interpolation == INTERPOLATE_GRID) {
             add_from_grid(pool, block, x, errors);
         } else if (block->interpolation == INTERPOLATE_SCATTER) {
             add_from_scatter(pool, block, x, errors);
         } else {
             add_from_path(pool, block, x, errors);
         }
+    }
+}
+
+/* Add what ``add_from_grid`` adds, for one argument: most tables have no more. */
+static void add_from_line(const double *pool, const ErrorBlock *block, double x, double errors[ERRORS])
+{
+    int32_t first = block->knots[0];
+    double u = double_min(double_max(x, pool[first]), pool[first + block->points[0] - 1]);
+    int32_t i = find_cell(pool, block, 0, u);
+    double share = (u - pool[first + i]) / (pool[first + i + 1] - pool[first + i]);
+    int32_t near = block->values + i * block->errors;
+    int32_t far = near + block->errors;
+    for (int32_t p = 0; p < block->errors; p++) {
+        errors[(int32_t)pool[block->error + p]] += (1.0 - share) * pool[near + p] + share * pool[far + p];
     }
 }
 
@@ -965,23 +983,24 @@ static bool correction_at(const VolumetricTable *table, const double position[LE
     }
     double inverse[9] = {0};
     invert(actual, inverse);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        correction[d] = 0.0;
-    }
     double residual[LINEAR] = {0};
+    double change[LINEAR] = {0};  /* of the linear axes in the order of the columns of J */
     for (int32_t _ = 0; _ < ITERATIONS; _++) {
         double largest = 0.0;
         for (int32_t d = 0; d < LINEAR; d++) {
             residual[d] = actual[d] - nominal[d]
-                    + (actual[3 + d] * correction[0] + actual[6 + d] * correction[1] + actual[9 + d] * correction[2]);
+                    + (actual[3 + d] * change[0] + actual[6 + d] * change[1] + actual[9 + d] * change[2]);
             largest = double_max(largest, fabs(residual[d]));
         }
         if (largest < RESIDUAL) {
+            for (int32_t d = 0; d < LINEAR; d++) {
+                correction[d] = change[table->column[d]];
+            }
             return true;
         }
-        turn(inverse, residual, 0);
+        turn(inverse, residual);
         for (int32_t d = 0; d < LINEAR; d++) {
-            correction[d] -= residual[d];
+            change[d] -= residual[d];
         }
     }
     return false;
@@ -998,67 +1017,101 @@ static void carry_to_workpiece(const VolumetricTable *table, const double positi
     double m[9] = {0};
     double o[3] = {0};
     double along[3] = {0};
+    int32_t columns = 1;  /* of the frames that are in use */
     for (int32_t k = 0; k < table->chain_length; k++) {
         int32_t place = table->chain_length - 1 - k;
         int32_t letter = table->chain[place];
         double q = position[letter];
         double side = place < table->workpiece_axes ? -1.0 : 1.0;
         if (letter < LINEAR) {
+            int32_t at = 3 * columns;
             for (int32_t d = 0; d < LINEAR; d++) {
-                along[d] = table->direction[3 * letter + d];
-                nominal[d] += side * along[d] * q;
-                nominal[3 + 3 * letter + d] = side * along[d];
+                along[d] = side * table->direction[3 * letter + d];
+                nominal[d] += along[d] * q;
+                nominal[at + d] = along[d];
             }
-            linear_axis(letter, q, errors, m, o, along);
+            if (table->exact[letter]) {
+                for (int32_t d = 0; d < LINEAR; d++) {
+                    actual[d] += along[d] * q;
+                    actual[at + d] = along[d];
+                }
+            } else {
+                linear_axis(letter, side * q, errors, m, o, along);
+                if (side < 0.0) {
+                    for (int32_t d = 0; d < LINEAR; d++) {
+                        actual[at + d] = along[d];
+                    }
+                    transpose(m);
+                    apply(m, o, side, columns + 1, actual);
+                } else {
+                    apply(m, o, side, columns, actual);
+                    for (int32_t d = 0; d < LINEAR; d++) {
+                        actual[at + d] = along[d];
+                    }
+                }
+            }
+            columns += 1;
         } else {
-            nominal_rotary_axis(table, letter, q, m, o);
-            apply(m, o, side, nominal);
-            rotary_axis(table, letter, q, errors, m, o);
-        }
-        if (letter < LINEAR && side < 0.0) {
-            for (int32_t d = 0; d < LINEAR; d++) {
-                actual[3 + 3 * letter + d] = -along[d];
-            }
-        }
-        apply(m, o, side, actual);
-        if (letter < LINEAR && side > 0.0) {
-            for (int32_t d = 0; d < LINEAR; d++) {
-                actual[3 + 3 * letter + d] = along[d];
+            nominal_rotary_axis(table, letter, side * q, m, o);
+            apply(m, o, 1.0, columns, nominal);
+            if (table->exact[letter]) {
+                apply(m, o, 1.0, columns, actual);
+            } else {
+                rotary_axis(table, letter, q, errors, m, o);
+                if (side < 0.0) {
+                    transpose(m);
+                }
+                apply(m, o, side, columns, actual);
             }
         }
     }
 }
 
-/* Map a frame by x ↦ M·x + o, or by its inverse where ``side`` is negative; ``m`` becomes the matrix used. */
-static void apply(double m[9], const double o[3], double side, double frame[FRAME])
+/* Map the first columns of a frame by x ↦ M·x + o; if ``side`` is negative by x ↦ M·(x − o). */
+static void apply(const double m[9], const double o[3], double side, int32_t columns, double frame[FRAME])
 {
     if (side < 0.0) {
-        for (int32_t i = 0; i < LINEAR; i++) {
-            frame[i] -= o[i];
-            for (int32_t j = 0; j < i; j++) {
-                double upper = m[3 * j + i];
-                m[3 * j + i] = m[3 * i + j];
-                m[3 * i + j] = upper;
-            }
+        for (int32_t d = 0; d < LINEAR; d++) {
+            frame[d] -= o[d];
         }
     }
-    for (int32_t k = 0; k < 4; k++) {
-        turn(m, frame, 3 * k);
+    double xx = m[0];
+    double xy = m[1];
+    double xz = m[2];
+    double yx = m[3];
+    double yy = m[4];
+    double yz = m[5];
+    double zx = m[6];
+    double zy = m[7];
+    double zz = m[8];
+    for (int32_t k = 0; k < columns; k++) {
+        int32_t at = 3 * k;
+        double x = frame[at];
+        double y = frame[at + 1];
+        double z = frame[at + 2];
+        frame[at] = xx * x + xy * y + xz * z;
+        frame[at + 1] = yx * x + yy * y + yz * z;
+        frame[at + 2] = zx * x + zy * y + zz * z;
     }
     if (side > 0.0) {
-        for (int32_t i = 0; i < LINEAR; i++) {
-            frame[i] += o[i];
+        for (int32_t d = 0; d < LINEAR; d++) {
+            frame[d] += o[d];
         }
     }
 }
 
-/* Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one. */
+/* Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one.
+ *
+ * At the workpiece ``q`` and ``along`` both have the opposite sign.
+ */
 static void linear_axis(int32_t letter, double q, const double errors[ERRORS], double m[9], double o[3],
         double along[3])
 {
     int32_t e = ERRORS_OF_AXIS * letter;
-    rotation(errors[e + 3], errors[e + 4], errors[e + 5], m);
-    turn(m, along, 0);
+    if (errors[e + 3] != 0.0 || errors[e + 4] != 0.0 || errors[e + 5] != 0.0) {
+        rotation(errors[e + 3], errors[e + 4], errors[e + 5], m);
+        turn(m, along);
+    }
     for (int32_t d = 0; d < LINEAR; d++) {
         o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d]);
     }
@@ -1090,17 +1143,17 @@ static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, 
     if (table->alternative) {
         /* L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …). */
         rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt);
-        turn(tilt, axis, 0);
+        turn(tilt, axis);
         rotation_about(axis, q, m);
         for (int32_t d = 0; d < LINEAR; d++) {
             o[d] = -errors[e + d];
         }
-        turn(m, o, 0);
+        turn(m, o);
         for (int32_t d = 0; d < LINEAR; d++) {
             o[d] += errors[e + d];
         }
         rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt);
-        turn(tilt, o, 0);
+        turn(tilt, o);
         for (int32_t d = 0; d < LINEAR; d++) {
             o[d] += errors[e + 6 + d];
         }
@@ -1123,7 +1176,7 @@ static void about_center(const VolumetricTable *table, int32_t letter, const dou
         center[d] = table->center[3 * (letter - LINEAR) + d];
         o[d] += center[d];
     }
-    turn(m, center, 0);
+    turn(m, center);
     for (int32_t d = 0; d < LINEAR; d++) {
         o[d] -= center[d];
     }
@@ -1178,15 +1231,27 @@ static void rotation_about(const double e[3], double q, double m[9])
     m[7] += s * e[0];
 }
 
-/* Multiply the vector at v[at …] by a matrix. */
-static void turn(const double m[9], double v[3], int32_t at)
+/* Multiply a vector by a matrix. */
+static void turn(const double m[9], double v[3])
 {
-    double x = v[at];
-    double y = v[at + 1];
-    double z = v[at + 2];
-    v[at] = m[0] * x + m[1] * y + m[2] * z;
-    v[at + 1] = m[3] * x + m[4] * y + m[5] * z;
-    v[at + 2] = m[6] * x + m[7] * y + m[8] * z;
+    double x = v[0];
+    double y = v[1];
+    double z = v[2];
+    v[0] = m[0] * x + m[1] * y + m[2] * z;
+    v[1] = m[3] * x + m[4] * y + m[5] * z;
+    v[2] = m[6] * x + m[7] * y + m[8] * z;
+}
+
+/* Replace a rotation by its inverse. */
+static void transpose(double m[9])
+{
+    for (int32_t i = 0; i < LINEAR; i++) {
+        for (int32_t j = 0; j < i; j++) {
+            double upper = m[3 * j + i];
+            m[3 * j + i] = m[3 * i + j];
+            m[3 * i + j] = upper;
+        }
+    }
 }
 
 /* Replace ``m`` by a·m. */

@@ -69,6 +69,8 @@ typedef struct {
     int32_t chain_length;
     int32_t chain[LETTERS];  /* letters from the workpiece to the tool */
     int32_t workpiece_axes;
+    bool exact[LETTERS];  /* the axis has no errors */
+    int32_t column[LINEAR];  /* how many linear axes are between X, Y or Z and the tool */
     bool alternative;
     double tool_position[LINEAR];
     double tool_orientation[LINEAR];
@@ -421,7 +423,7 @@ typedef struct {
 /* ============================= volumetric_model ============================= */
 
 #define DEGREE 0.017453292519943295  /* HALF_PI / 90.0 */
-#define FRAME 12  /* W, then the columns of J that belong to X, Y and Z */
+#define FRAME 12  /* W, then the columns of J: those of X, Y and Z in their order from the tool */
 #define RESIDUAL 1e-9  /* mm */
 #define ITERATIONS 5
 #define SINGULAR 1e-6  /* volume spanned by the columns of J, which are unit vectors */

@@ -122,7 +122,7 @@ def kernel_tool_place(
     machine: Volumetric, position: Mapping[str, float], errors: Mapping[str, float], tool_length: float = 0.0
 ) -> Matrix:
     """Return where the kernel says the tool tip is."""
-    table = Runtime(machine_of(machine)).tables.volumetric[machine.index]
+    table = Runtime(machine_of(with_constant_errors(machine, errors))).tables.volumetric[machine.index]
     values = zeros(len(ERRORS))
     for name, value in errors.items():
         values[ERRORS.index(name)] = value
