@@ -100,9 +100,9 @@ OF_AXIS = (
 
 OF_VOLUMETRIC = (
     Declaration(0, "enable", "input", True, "Command of the volumetric compensation: on or off"),
-    Declaration(1, "no_move", "input", False, "What is switched now moves no axis: its value becomes setpoint_shift"),
+    Declaration(1, "no_move", "input", False, "The command moves no axis: its value becomes setpoint_shift"),
     *(
-        Declaration(2 + i, f"factor_{letter}", "input", 1.0, f"Share of the correction of {letter.upper()} from now on")
+        Declaration(2 + i, f"factor_{letter}", "input", 1.0, f"Share of {letter.upper()}'s correction, with a command")
         for i, letter in enumerate("xyz")
     ),
     Declaration(5, "active", "output", False, "The volumetric compensation acts at least partly"),

@@ -86,10 +86,12 @@ class VolumetricState:
     started: bool
     enable: bool  # the input in the last cycle: its edges are the commands
     command: bool  # what was last commanded
+    no_move: bool  # the command came with NO_MOVE
+    wanted_factor: Annotated[list[float], LINEAR]  # sign · CFACT of the command
     on: bool  # the command, while it can be obeyed
     step: int
     weight: float
-    factor: Annotated[list[float], LINEAR]  # sign · CFACT, as of the last command
+    factor: Annotated[list[float], LINEAR]  # the wanted one when it was last switched on
     taking_part: Annotated[list[bool], LINEAR]  # False: dropped, its correction has become a shift
     absorbed: Annotated[list[bool], LINEAR]  # what its correction changes in this cycle goes into the shift
     value: Annotated[list[float], LINEAR]  # correction at full weight
@@ -105,7 +107,7 @@ class VolumetricInputs:
 
     enable: bool
     no_move: bool
-    factor_x: float  # CFACT_X, 0 … 1; factors count when the compensation is switched on
+    factor_x: float  # CFACT_X, 0 … 1; a factor belongs to the command in whose cycle it is given, as no_move does
     factor_y: float
     factor_z: float
 

@@ -34,7 +34,7 @@ def switch_volumetric(
         volumetric.absorbed[d] = False
     if not volumetric.started or given.enable != volumetric.enable:
         volumetric.enable = given.enable
-        volumetric.command = given.enable
+        take_command(table, volumetric, given, given.enable)
     ready = drop_members(table, volumetric, inputs)
     if inputs.reset:
         volumetric.command = False
@@ -43,24 +43,27 @@ def switch_volumetric(
         volumetric.command = False
         stop_without_motion(volumetric)
         set_error(table, state, ERROR_PROGRAM_END)
-    elif table.manual and (inputs.program_end or not ready):
-        volumetric.command = False
+    elif table.manual and volumetric.command and (inputs.program_end or not ready):
+        take_command(table, volumetric, given, False)
 
     if volumetric.on and not (volumetric.command and ready):
-        if ready and given.no_move:
+        if ready and volumetric.no_move:
             stop_without_motion(volumetric)
         else:
             volumetric.on = False
             release_shifts(table, volumetric)
-    elif (
-        not volumetric.on
-        and volumetric.command
-        and ready
-        and (volumetric.step == 0 or can_turn_round(table, volumetric, given))
-    ):
-        switch_on(table, volumetric, given, state)
+    elif not volumetric.on and volumetric.command and ready and (volumetric.step == 0 or can_turn_round(volumetric)):
+        switch_on(table, volumetric, state)
     advance_weight(table, volumetric)
     volumetric.started = True
+
+
+def take_command(table: VolumetricTable, volumetric: VolumetricState, given: VolumetricInputs, command: bool) -> None:
+    """Keep a command until it can be obeyed, and what came with it."""
+    volumetric.command = command
+    volumetric.no_move = given.no_move
+    for d in range(LINEAR):
+        volumetric.wanted_factor[d] = signed_factor(table, given, d)
 
 
 def adopt_volumetric(before: VolumetricTable, after: VolumetricTable, volumetric: VolumetricState) -> None:
@@ -106,7 +109,7 @@ def stop_without_motion(volumetric: VolumetricState) -> None:
         volumetric.absorbed[d] = True
 
 
-def switch_on(table: VolumetricTable, volumetric: VolumetricState, given: VolumetricInputs, state: State) -> None:
+def switch_on(table: VolumetricTable, volumetric: VolumetricState, state: State) -> None:
     """Switch on, provided that every limit is defined."""
     for m in range(table.members):
         if table.member_letter[m] < LINEAR and table.member_limit[m] <= 0.0:
@@ -117,12 +120,12 @@ def switch_on(table: VolumetricTable, volumetric: VolumetricState, given: Volume
     volumetric.on = True
     for d in range(LINEAR):
         volumetric.taking_part[d] = True
-        volumetric.factor[d] = signed_factor(table, given, d)
+        volumetric.factor[d] = volumetric.wanted_factor[d]
     for m in range(table.members):
         state.axis[table.member[m]].stop_request = False
     if not volumetric.started:
         volumetric.step = table.cycles
-    elif given.no_move:
+    elif volumetric.no_move:
         volumetric.step = table.cycles
         for d in range(LINEAR):
             volumetric.absorbed[d] = True
@@ -142,10 +145,10 @@ def signed_factor(table: VolumetricTable, given: VolumetricInputs, letter: int) 
     return 0.0
 
 
-def can_turn_round(table: VolumetricTable, volumetric: VolumetricState, given: VolumetricInputs) -> bool:
+def can_turn_round(volumetric: VolumetricState) -> bool:
     """Tell whether a compensation that is running down can go up again; else it has to be down before."""
     for d in range(LINEAR):
-        if not volumetric.taking_part[d] or volumetric.factor[d] != signed_factor(table, given, d):
+        if not volumetric.taking_part[d] or volumetric.factor[d] != volumetric.wanted_factor[d]:
             return False
     return True
 

@@ -64,15 +64,15 @@ static void about_center(const VolumetricTable *table, int32_t letter, const dou
 static void multiply_from_left(const double a[9], double m[9]);
 static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs);
 static void advance_weight(const VolumetricTable *table, VolumetricState *volumetric);
+static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
+        bool command);
 static void stop_without_motion(VolumetricState *volumetric);
 static void set_error(const VolumetricTable *table, State *state, int32_t error);
 static void release_shifts(const VolumetricTable *table, VolumetricState *volumetric);
-static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
-        State *state);
-static bool can_turn_round(const VolumetricTable *table, const VolumetricState *volumetric,
-        const VolumetricInputs *given);
-static void drop_axis(VolumetricState *volumetric, int32_t letter);
+static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, State *state);
+static bool can_turn_round(const VolumetricState *volumetric);
 static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter);
+static void drop_axis(VolumetricState *volumetric, int32_t letter);
 static void contribute(const VolumetricTable *table, VolumetricState *volumetric, State *state);
 static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state);
 static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state);
@@ -1316,7 +1316,7 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
     }
     if (!volumetric->started || given->enable != volumetric->enable) {
         volumetric->enable = given->enable;
-        volumetric->command = given->enable;
+        take_command(table, volumetric, given, given->enable);
     }
     bool ready = drop_members(table, volumetric, inputs);
     if (inputs->reset) {
@@ -1326,23 +1326,34 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         volumetric->command = false;
         stop_without_motion(volumetric);
         set_error(table, state, ERROR_PROGRAM_END);
-    } else if (table->manual && (inputs->program_end || !ready)) {
-        volumetric->command = false;
+    } else if (table->manual && volumetric->command && (inputs->program_end || !ready)) {
+        take_command(table, volumetric, given, false);
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
-        if (ready && given->no_move) {
+        if (ready && volumetric->no_move) {
             stop_without_motion(volumetric);
         } else {
             volumetric->on = false;
             release_shifts(table, volumetric);
         }
     } else if (!volumetric->on && volumetric->command && ready
-            && (volumetric->step == 0 || can_turn_round(table, volumetric, given))) {
-        switch_on(table, volumetric, given, state);
+            && (volumetric->step == 0 || can_turn_round(volumetric))) {
+        switch_on(table, volumetric, state);
     }
     advance_weight(table, volumetric);
     volumetric->started = true;
+}
+
+/* Keep a command until it can be obeyed, and what came with it. */
+static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
+        bool command)
+{
+    volumetric->command = command;
+    volumetric->no_move = given->no_move;
+    for (int32_t d = 0; d < LINEAR; d++) {
+        volumetric->wanted_factor[d] = signed_factor(table, given, d);
+    }
 }
 
 /* Switch off without motion for an update; a manual compensation needs a new command. */
@@ -1402,8 +1413,7 @@ static void stop_without_motion(VolumetricState *volumetric)
 }
 
 /* Switch on, provided that every limit is defined. */
-static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
-        State *state)
+static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, State *state)
 {
     for (int32_t m = 0; m < table->members; m++) {
         if (table->member_letter[m] < LINEAR && table->member_limit[m] <= 0.0) {
@@ -1417,14 +1427,14 @@ static void switch_on(const VolumetricTable *table, VolumetricState *volumetric,
     volumetric->on = true;
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->taking_part[d] = true;
-        volumetric->factor[d] = signed_factor(table, given, d);
+        volumetric->factor[d] = volumetric->wanted_factor[d];
     }
     for (int32_t m = 0; m < table->members; m++) {
         state->axis[table->member[m]].stop_request = false;
     }
     if (!volumetric->started) {
         volumetric->step = table->cycles;
-    } else if (given->no_move) {
+    } else if (volumetric->no_move) {
         volumetric->step = table->cycles;
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->absorbed[d] = true;
@@ -1450,11 +1460,10 @@ static double signed_factor(const VolumetricTable *table, const VolumetricInputs
 }
 
 /* Tell whether a compensation that is running down can go up again; else it has to be down before. */
-static bool can_turn_round(const VolumetricTable *table, const VolumetricState *volumetric,
-        const VolumetricInputs *given)
+static bool can_turn_round(const VolumetricState *volumetric)
 {
     for (int32_t d = 0; d < LINEAR; d++) {
-        if (!volumetric->taking_part[d] || volumetric->factor[d] != signed_factor(table, given, d)) {
+        if (!volumetric->taking_part[d] || volumetric->factor[d] != volumetric->wanted_factor[d]) {
             return false;
         }
     }

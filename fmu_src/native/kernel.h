@@ -88,10 +88,12 @@ typedef struct {
     bool started;
     bool enable;  /* the input in the last cycle: its edges are the commands */
     bool command;  /* what was last commanded */
+    bool no_move;  /* the command came with NO_MOVE */
+    double wanted_factor[LINEAR];  /* sign · CFACT of the command */
     bool on;  /* the command, while it can be obeyed */
     int32_t step;
     double weight;
-    double factor[LINEAR];  /* sign · CFACT, as of the last command */
+    double factor[LINEAR];  /* the wanted one when it was last switched on */
     bool taking_part[LINEAR];  /* False: dropped, its correction has become a shift */
     bool absorbed[LINEAR];  /* what its correction changes in this cycle goes into the shift */
     double value[LINEAR];  /* correction at full weight */
@@ -105,7 +107,7 @@ typedef struct {
 typedef struct {
     bool enable;
     bool no_move;
-    double factor_x;  /* CFACT_X, 0 … 1; factors count when the compensation is switched on */
+    double factor_x;  /* CFACT_X, 0 … 1; a factor belongs to the command in whose cycle it is given, as no_move does */
     double factor_y;
     double factor_z;
 } VolumetricInputs;

@@ -2,7 +2,7 @@
 #ifndef AXCOMP_LAYOUT_H
 #define AXCOMP_LAYOUT_H
 
-#define AXCOMP_LAYOUT 0x121cf6ebu  /* of the records in images and states */
+#define AXCOMP_LAYOUT 0xfe14cc75u  /* of the records in images and states */
 #define AXCOMP_POINTER 8u  /* bytes of a pointer in them */
 
 enum { MACHINE_BLOCK = 0, AXIS_BLOCK = 1, VOLUMETRIC_BLOCK = 33 };

@@ -382,6 +382,22 @@ def test_a_factor_counts_from_the_next_switch_on_and_never_jumps() -> None:
     assert np.abs(np.diff(offsets, axis=0)).max() < 0.1 * np.abs(VALUES).max()
 
 
+def test_a_command_keeps_its_no_move_and_its_factors_until_it_can_be_obeyed() -> None:
+    bench = Bench(shifted())
+    bench.given[0].enable = False
+    bench.inputs.axis[5].referenced = False
+    bench.run()
+    bench.given[0].enable = bench.given[0].no_move = True
+    bench.set_factors(0.5, 0.5, 0.5)
+    bench.run()
+    bench.given[0].no_move = False
+    bench.set_factors(1.0, 1.0, 1.0)
+    bench.run(3)
+    bench.inputs.axis[5].referenced = True
+    assert bench.run(5) == pytest.approx(np.zeros((5, 3)), abs=1e-15)
+    assert bench.corrections == pytest.approx(0.5 * VALUES)
+
+
 def test_what_is_no_number_is_no_factor() -> None:
     bench = Bench(shifted())
     bench.set_factors(float("nan"), -1.0, 1.0)
