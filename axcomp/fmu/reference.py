@@ -1,4 +1,4 @@
-"""The reference page of the FMU, from the declarations: ``python -m axcomp.fmu.reference`` writes it again."""
+"""The FMU's variables as documentation: ``python -m axcomp.fmu.reference`` writes page and README section again."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from .variables import (
 )
 
 PAGE = models().parent / "docs" / "fmu-reference.md"
+README = models().parent / "README.md"
+README_BEGIN, README_END = "<!-- variables -->", "<!-- end of variables -->"
 
 HEAD = """\
 # Variables of axcomp.fmu
@@ -98,6 +100,37 @@ def reference_page() -> str:
     return f"{head}\n{tables}\n{STEPS}{errors}\n"
 
 
+def readme_section() -> str:
+    """Return the list of variables for the README: names and units, inputs before outputs."""
+    every_axis = [d for d in AXIS_DECLARATIONS if not d.kind]
+    of_kinds = [d for d in AXIS_DECLARATIONS if d.kind == KINDS[0]]
+    others = [d for d in AXIS_DECLARATIONS if d.kind == "friction" and d.name == "current"]
+    others += [d for d in AXIS_DECLARATIONS if d.kind == VOLUMETRIC]
+    rows = ["| | Inputs | Outputs |", "| --- | --- | --- |"]
+    for label, declarations, prefix in (
+        ("of every axis", every_axis, "NAME."),
+        (f"of every kind of compensation, {', '.join(KINDS)}", of_kinds, "NAME."),
+        ("with friction, with volumetric compensation", others, "NAME."),
+        ("of every volumetric compensation", OF_VOLUMETRIC, "volumetric[j]."),
+        ("of the machine", OF_MACHINE, ""),
+    ):
+        inputs = [d for d in declarations if d.causality != "output"]
+        outputs = [d for d in declarations if d.causality == "output"]
+        rows.append(f"| {label} | {_named(inputs, prefix)} | {_named(outputs, prefix)} |")
+    return "\n".join(rows).replace(f"{KINDS[0]}.", "KIND.") + "\n"
+
+
+def readme_with_section(readme: str) -> str:
+    """Return a README whose part between the markers is the list of variables."""
+    before, _, rest = readme.partition(README_BEGIN)
+    _, _, after = rest.partition(README_END)
+    return f"{before}{README_BEGIN}\n{readme_section()}{README_END}{after}"
+
+
+def _named(declarations: Iterable[Declaration], prefix: str) -> str:
+    return ", ".join(f"`{prefix}{d.name}`" for d in declarations)
+
+
 def _table(declarations: Iterable[Declaration], prefix: str) -> str:
     return "\n".join(_rows(declarations, prefix))
 
@@ -126,3 +159,4 @@ def _start(declaration: Declaration) -> str:
 
 if __name__ == "__main__":
     PAGE.write_text(reference_page(), encoding="utf-8")
+    README.write_text(readme_with_section(README.read_text(encoding="utf-8")), encoding="utf-8")
