@@ -56,12 +56,18 @@ typedef struct {
 #define FMI2_NAME(name) name
 #endif
 
-#if defined(_WIN32)
-#define FMI2_EXPORT __declspec(dllexport)
-#elif defined(__GNUC__)
-#define FMI2_EXPORT __attribute__((visibility("default")))
+#if defined(__cplusplus)
+#define FMI2_LINKAGE extern "C"
 #else
-#define FMI2_EXPORT
+#define FMI2_LINKAGE
+#endif
+
+#if defined(_WIN32)
+#define FMI2_EXPORT FMI2_LINKAGE __declspec(dllexport)
+#elif defined(__GNUC__)
+#define FMI2_EXPORT FMI2_LINKAGE __attribute__((visibility("default")))
+#else
+#define FMI2_EXPORT FMI2_LINKAGE
 #endif
 
 #endif
