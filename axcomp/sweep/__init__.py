@@ -1,0 +1,1 @@
+"""Many runs over varied lists, inputs and parameters: ``axcomp sweep``."""

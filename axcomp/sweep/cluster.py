@@ -1,0 +1,110 @@
+"""Tasks on Dask, some at a time, their results as they come."""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Callable, Iterator
+from typing import Any, TypeVar
+
+import dask
+from distributed import Client, Future, LocalCluster, as_completed
+
+T = TypeVar("T")
+
+TIMEOUT = 15.0
+"""s that a scheduler has to answer."""
+TRIES_OF_A_KILLER = 1
+"""Workers that a task may take with it before it counts as failed, on a cluster of our own."""
+
+_SETTINGS = {
+    "distributed.scheduler.allowed-failures": TRIES_OF_A_KILLER,
+    "distributed.admin.tick.limit": "1h",
+    "distributed.worker.daemon": True,
+}
+
+
+class ClusterError(OSError):
+    """No cluster to work on; the message says why."""
+
+
+def completed(
+    task: Callable[[Any, T], Any],
+    common: Any,
+    items: list[T],
+    scheduler: str | None = None,
+    workers: int | None = None,
+) -> Iterator[tuple[T, Any, BaseException | None]]:
+    """Yield (item, result, exception) of ``task(common, item)`` in the order in which they end.
+
+    Parameters
+    ----------
+    task : callable
+        Importable by the workers.
+    common : object
+        Sent to each worker once.
+    items : list
+        One task each.
+    scheduler : str or None
+        Address of a Dask scheduler; None: workers of our own on this machine.
+    workers : int or None
+        How many of our own; None: one for each processor.
+
+    Raises
+    ------
+    ClusterError
+        If the scheduler does not answer, or has no workers.
+    """
+    with dask.config.set(_SETTINGS):
+        if scheduler is None:
+            count = min(workers or os.cpu_count() or 1, len(items))
+            with (
+                LocalCluster(
+                    n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                ) as cluster,
+                Client(cluster) as client,
+            ):
+                yield from _completed(client, task, common, items)
+        else:
+            with _connected(scheduler) as client:
+                yield from _completed(client, task, common, items)
+
+
+def _connected(scheduler: str) -> Client:
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    try:
+        client = Client(scheduler, timeout=TIMEOUT)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise ClusterError(f"the scheduler {scheduler} does not answer: {error}") from None
+    if not client.nthreads():
+        client.close()
+        raise ClusterError(f"the scheduler {scheduler} has no workers")
+    return client
+
+
+def _completed(
+    client: Client, task: Callable[[Any, T], Any], common: Any, items: list[T]
+) -> Iterator[tuple[T, Any, BaseException | None]]:
+    """Keep as many tasks under way as there are threads: a worker that dies then takes one task with it."""
+    sent = client.scatter(common, broadcast=True, hash=False)
+    waiting = iter(items)
+    under_way: dict[Future[Any], T] = {}
+    ended = as_completed()
+
+    def submit_next() -> bool:
+        for item in waiting:
+            future = client.submit(task, sent, item, pure=False)
+            under_way[future] = item
+            ended.add(future)
+            return True
+        return False
+
+    while len(under_way) < max(1, sum(client.nthreads().values())) and submit_next():
+        pass
+    for future in ended:
+        item = under_way.pop(future)
+        error = future.exception()
+        result = None if error is not None else future.result()
+        submit_next()
+        yield item, result, error
+        future.release()

@@ -1,0 +1,113 @@
+"""Rows of a sweep on disk as they come, so that one that was stopped can go on.
+
+A line of JSON each: the key of the run and its row. The key is made of everything that decides the row, so a journal
+never gives a row to a run that has become another one.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from .spec import ERROR, Run
+from .task import Job, Row
+
+SUFFIX = ".journal"
+"""Added to the name of the results' file."""
+
+FORMAT = 1
+"""To be raised when the same run gives other rows than before."""
+
+
+def keys_of(job: Job, runs: list[Run]) -> list[str]:
+    """Return the key of each run."""
+    common = hashlib.sha256(repr(FORMAT).encode())
+    common.update(repr((job.cycle_time, job.duration, sorted(job.results.items()))).encode())
+    _update(common, job.trajectory)
+    digests = []
+    for run in runs:
+        own = common.copy()
+        own.update(job.sources[run.machine].digest.encode())
+        own.update(repr([(setting.key, value) for setting, value in run.values.items()]).encode())
+        digests.append(own.hexdigest())
+    return digests
+
+
+def _update(digest: Any, value: Any) -> None:
+    if dataclasses.is_dataclass(value):
+        for item in dataclasses.fields(value):
+            _update(digest, getattr(value, item.name))
+    elif isinstance(value, Mapping):
+        for name, element in value.items():
+            digest.update(f"\0{name}\0".encode())
+            _update(digest, element)
+    elif isinstance(value, np.ndarray):
+        digest.update(value.tobytes())
+    else:
+        digest.update(repr(value).encode())
+
+
+class Journal:
+    """The rows so far.
+
+    Parameters
+    ----------
+    path : Path
+        Made when the first row comes.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._file: Any = None
+
+    def rows(self, *, failed: bool = True) -> dict[str, Row]:
+        """Return the rows by key; ``failed``: those with an error too. A line that was cut off is none."""
+        found: dict[str, Row] = {}
+        try:
+            lines = self.path.read_text(encoding="utf-8").splitlines()
+        except FileNotFoundError:
+            return found
+        for line in lines:
+            try:
+                key, row = json.loads(line)
+                if failed or not row[ERROR]:
+                    found[str(key)] = dict(row)
+            except (ValueError, TypeError, KeyError):
+                continue
+        return found
+
+    def add(self, key: str, row: Row) -> None:
+        """Write a row; it is on disk when this returns."""
+        if self._file is None:
+            # What was cut off must not spoil the line that follows it.
+            cut = self.path.exists() and not self.path.read_bytes().endswith(b"\n")
+            self._file = self.path.open("a", encoding="utf-8")
+            self._file.write("\n" if cut else "")
+        self._file.write(json.dumps([key, row]) + "\n")
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+    def remove(self) -> None:
+        """Delete the file: the results are complete."""
+        self.close()
+        self.path.unlink(missing_ok=True)
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.close()

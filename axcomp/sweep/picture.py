@@ -1,0 +1,39 @@
+"""A result over what was varied."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from ..show.style import labelled, line_styles, new_figure
+from .spec import ERROR, FINDINGS, RUN
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LINES_NAMED = 12
+"""Lines that a legend has room for."""
+
+
+def plot_sweep(table: pd.DataFrame, x: str, y: str, ax: Axes | None = None) -> Axes:
+    """Draw a result over a column, a line for each combination of the other columns that were varied.
+
+    Columns left of ``y`` up to the first result are what was varied; they need not be numbers, ``x`` has to be.
+    """
+    for name in (x, y):
+        if name not in table or not pd.api.types.is_numeric_dtype(table[name]):
+            numeric = [str(n) for n in table.columns if pd.api.types.is_numeric_dtype(table[n])]
+            raise ValueError(f"there is no column {name} of numbers; there are {', '.join(numeric)}")
+    ax = new_figure().add_subplot() if ax is None else ax
+    done = table[table[ERROR] == ""]
+    varied = list(done.columns[1 : list(done.columns).index(y)])
+    others = [n for n in varied if n not in {x, RUN, FINDINGS} and done[n].nunique(dropna=False) > 1]
+    groups = list(done.groupby(others, dropna=False, sort=False)) if others else [((), done)]
+    for (values, group), (colour, marker) in zip(groups, line_styles(len(groups)), strict=True):
+        ordered = group.sort_values(x)
+        label = ", ".join(f"{n} = {v}" for n, v in zip(others, values, strict=True))
+        ax.plot(ordered[x], ordered[y], color=colour, marker=marker, ms=4, lw=1.2, label=label or None)
+    if others and len(groups) <= LINES_NAMED:
+        ax.legend(fontsize=9)
+    return labelled(ax, f"{y} over {x}", x, y)

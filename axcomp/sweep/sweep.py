@@ -1,0 +1,187 @@
+"""A whole sweep: what is missing is run, and all rows come out in the order of the specification."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from ..fmu.archive import BuildError
+from ..fmu.packed_lists import FOLDER, packed_lists
+from .errors import SpecError
+from .journal import SUFFIX, Journal, keys_of
+from .list_variation import ListEntry, read_files
+from .spec import ERROR, FINDINGS, MACHINE, RUN, Run, Spec
+from .task import Job, Row, Source, nothing_of, perform
+
+Progress = Callable[[int, int], None]
+"""Called with how many rows there are, and how many there are to be."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Results of a sweep.
+
+    Attributes
+    ----------
+    table : DataFrame
+        A row a run, in the order of the specification: ``run``, what was varied, the results, ``findings``, ``error``.
+    taken_over : int
+        Rows that were there already.
+    """
+
+    table: pd.DataFrame
+    taken_over: int
+
+    @property
+    def failed(self) -> pd.DataFrame:
+        """The rows of the runs that failed."""
+        return self.table[self.table[ERROR] != ""]
+
+    def save(self, path: Path) -> None:
+        """Write the table, as ``.parquet`` or ``.csv``: there is either all of it or what was there before."""
+        unfinished = path.with_name(f"{path.name}.unfinished")
+        WRITERS[path.suffix.lower()](self.table, unfinished)
+        unfinished.replace(path)
+
+    def plot(self, x: str, y: str, ax: Any = None) -> Any:
+        """Draw a result over what was varied, a line for each combination of the rest; return the Matplotlib axes."""
+        from .picture import plot_sweep  # noqa: PLC0415 - Matplotlib takes long to load
+
+        return plot_sweep(self.table, x, y, ax)
+
+
+WRITERS: dict[str, Callable[[pd.DataFrame, Path], object]] = {
+    ".parquet": lambda table, path: table.to_parquet(path, index=False, engine="pyarrow"),
+    ".csv": lambda table, path: table.to_csv(path, index=False, lineterminator="\n"),
+}
+"""By the suffix of the file."""
+
+
+def job_of(spec: Spec) -> tuple[Job, list[str]]:
+    """Return what the runs of a specification have in common, and findings about the lists as they are.
+
+    Raises
+    ------
+    SpecError
+        If a machine cannot be read, or lists have no such entry.
+    """
+    sources: list[Source] = []
+    said: list[str] = []
+    for path in spec.machines:
+        if path.suffix.lower() == ".fmu":
+            sources.append(Source.of("", {path.name: path.read_bytes()}))
+            continue
+        try:
+            place, packed = packed_lists(path)
+        except (BuildError, OSError) as error:
+            raise SpecError(spec.file, MACHINE, str(error)) from None
+        files = {name.removeprefix(f"{FOLDER}/"): data for name, data in packed.items()}
+        source = Source.of(place.removeprefix(f"{FOLDER}/") if place != FOLDER else ".", files)
+        machine, findings = read_files(source.start, files)
+        said += [text for _, text in findings]
+        if not machine.axes:
+            raise SpecError(spec.file, MACHINE, f"{path}: there is no axis in these lists")
+        known = frozenset((finding.parameter, finding.code) for finding, _ in findings)
+        sources.append(Source(source.digest, source.start, files, known))
+    _check_entries(spec, sources)
+    return Job(tuple(sources), spec.trajectory, spec.results, spec.cycle_time, spec.duration), said
+
+
+def _check_entries(spec: Spec, sources: list[Source]) -> None:
+    """Try every setting of a list entry on every machine."""
+    for setting in spec.settings:
+        values = spec.vary.get(setting) or tuple(run[setting] for run in spec.runs if setting in run)
+        for source, path in zip(sources, spec.machines, strict=True):
+            try:
+                if source.is_fmu and setting.of_lists:
+                    raise ValueError(f"{path} is an FMU, whose lists cannot be varied; expected a machine's lists")
+                if isinstance(setting.target, ListEntry):
+                    file = setting.target.place(source.files)
+                    setting.target.applied(source.files[file], values[0])
+            except ValueError as error:
+                raise SpecError(spec.file, f'vary."{setting.key}"', str(error)) from None
+
+
+def run_sweep(
+    spec: Spec,
+    job: Job,
+    output: Path,
+    *,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    retry: bool = False,
+    progress: Progress | None = None,
+) -> Sweep:
+    """Run what is missing, and write the results.
+
+    Parameters
+    ----------
+    spec, job : Spec, Job
+        A specification, and what ``job_of`` makes of it.
+    output : Path
+        ``.parquet`` or ``.csv``. Beside it lies a journal until the results are there.
+    scheduler, workers
+        As in ``cluster.completed``.
+    retry : bool
+        Try runs again that have failed before.
+    progress : callable
+        Told at the start and after every run.
+
+    Raises
+    ------
+    ClusterError
+        If there is no cluster to work on.
+    """
+    runs = list(spec.every_run())
+    keys = keys_of(job, runs)
+    with Journal(output.with_name(output.name + SUFFIX)) as journal:
+        rows = {key: row for key, row in journal.rows(failed=not retry).items() if key in set(keys)}
+        missing = [run for run, key in zip(runs, keys, strict=True) if key not in rows]
+        taken_over = len(runs) - len(missing)
+        tell = progress or (lambda *_: None)
+        tell(taken_over, len(runs))
+        if missing:
+            for done, (run, row) in enumerate(_performed(job, missing, scheduler, workers), taken_over + 1):
+                rows[keys[run.index]] = row
+                journal.add(keys[run.index], row)
+                tell(done, len(runs))
+        sweep = Sweep(_table(spec, runs, [rows[key] for key in keys]), taken_over)
+        sweep.save(output)
+        if sweep.failed.empty:
+            journal.remove()
+    return sweep
+
+
+def _performed(job: Job, runs: list[Run], scheduler: str | None, workers: int | None) -> Iterator[tuple[Run, Row]]:
+    from ..native.library import compiled_kernel  # noqa: PLC0415
+    from .cluster import completed  # noqa: PLC0415 - Dask takes long to load
+
+    if scheduler is None:
+        # Compiled once here, it is there for all workers.
+        compiled_kernel()
+    for run, found, error in completed(perform, job, runs, scheduler, workers):
+        row: Row = found
+        if error is not None:
+            ended = f"the worker ended during this run: {' '.join(str(error).split())}"
+            row = {**nothing_of(job), ERROR: ended}
+        yield run, row
+
+
+def _table(spec: Spec, runs: list[Run], rows: list[Row]) -> pd.DataFrame:
+    """Return all rows; a column of values of different kinds is one of texts."""
+    columns: dict[str, Any] = {RUN: [run.index for run in runs]}
+    if len(spec.machines) > 1:
+        columns[MACHINE] = [os.path.relpath(spec.machines[run.machine], spec.file.parent) for run in runs]
+    for setting in spec.settings:
+        values = [run.values.get(setting) for run in runs]
+        kinds = {type(value) for value in values if value is not None}
+        mixed = len(kinds - {int, float}) > (0 if kinds & {int, float} else 1)
+        columns[setting.key] = [str(v) if mixed and v is not None else v for v in values]
+    for name in (*spec.results, FINDINGS, ERROR):
+        columns[name] = [row[name] for row in rows]
+    return pd.DataFrame(columns)

@@ -1,0 +1,215 @@
+"""One run of a sweep, as a worker does it: nothing here knows of the others.
+
+A worker may be on another machine: it gets the lists themselves, not their paths.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..engine import Engine
+from ..machine import Machine
+from .list_variation import ListEntry, Table, Value, read_files
+from .reductions import Column, Reduction
+from .settings import PARAMETERS
+from .spec import ERROR, FINDINGS, Run
+from .trajectory import LIMITS, Columns, InputFile, Motion, completed
+
+Row = dict[str, Any]
+"""Results of a run by column: numbers, ``findings`` and ``error``; texts are "" where there is nothing to say."""
+
+MACHINES_KEPT = 8
+"""Machines that a worker remembers: reading lists takes longer than most runs."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """What a machine is made of; equal for equal content.
+
+    Attributes
+    ----------
+    digest : str
+        Of everything in it.
+    start : str
+        What ``read_machine`` is to read among the files; "" for an FMU.
+    files : mapping of str to bytes
+        The lists by relative path, or the one FMU.
+    known : frozenset of str
+        Findings about the lists as they are: these are no news in a run.
+    """
+
+    digest: str
+    start: str = field(compare=False)
+    files: Mapping[str, bytes] = field(compare=False, repr=False)
+    known: frozenset[tuple[str, str]] = field(default=frozenset(), compare=False, repr=False)
+
+    @classmethod
+    def of(cls, start: str, files: Mapping[str, bytes]) -> Source:
+        """Return the source made of these files."""
+        digest = hashlib.sha256(start.encode())
+        for name in sorted(files):
+            digest.update(f"\0{name}\0{len(files[name])}\0".encode())
+            digest.update(files[name])
+        return cls(digest.hexdigest(), start, dict(files))
+
+    @property
+    def is_fmu(self) -> bool:
+        """Whether it is an FMU."""
+        return not self.start
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """What all runs of a sweep have in common; sent to each worker once."""
+
+    sources: tuple[Source, ...]
+    trajectory: InputFile | Motion
+    results: Mapping[str, Reduction]
+    cycle_time: float
+    duration: float | None
+
+
+def nothing_of(job: Job) -> Row:
+    """Return the row of a run without results."""
+    return {**dict.fromkeys(job.results, float("nan")), FINDINGS: "", ERROR: ""}
+
+
+def perform(job: Job, run: Run) -> Row:
+    """Return the row of a run; what goes wrong in it stands in its ``error``."""
+    row = nothing_of(job)
+    try:
+        values, cycle_time, row[FINDINGS] = _simulate(job, run)
+        for name, reduction in job.results.items():
+            unknown = [variable for variable in reduction.names if variable not in values]
+            if unknown:
+                raise ValueError(f"{name}: there is no variable {unknown[0]}; there are {', '.join(values)}")
+            try:
+                row[name] = reduction.of(values, cycle_time)
+            except ValueError as error:
+                raise ValueError(f"{name}: {error}") from None
+    except Exception as error:  # whatever it is, the other runs go on
+        text = error.args[0] if isinstance(error, KeyError) and error.args else str(error)
+        row[ERROR] = " ".join(str(text or repr(error)).split())
+    return row
+
+
+def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
+    """Return inputs and outputs of a run by name, the cycle time, and findings about its lists."""
+    source = job.sources[run.machine]
+    parameters = {s.name: value for s, value in run.values.items() if s.kind == "parameter"}
+    cycle_time = float(parameters.get("cycle_time", job.cycle_time))
+    duration = parameters.get("duration", job.duration)
+    trajectory = job.trajectory
+    if isinstance(trajectory, Motion):
+        own = {name: float(parameters[name]) for name in LIMITS if name in parameters}
+        trajectory = replace(trajectory, limits=replace(trajectory.limits, **own) if own else trajectory.limits)
+    columns = trajectory.sampled(cycle_time, None if duration is None else float(duration))
+    if source.is_fmu:
+        starts = {name: value for name, value in parameters.items() if name not in PARAMETERS}
+        return _simulate_fmu(source, run, columns, starts, cycle_time)
+    unknown = [name for name in parameters if name not in PARAMETERS]
+    if unknown:
+        raise ValueError(f"there is no parameter {unknown[0]}; there are {', '.join(PARAMETERS)}")
+    entries = tuple((s.target, value) for s, value in run.values.items() if isinstance(s.target, ListEntry))
+    machine, findings = _machine(source, entries)
+    for setting, value in run.values.items():
+        if isinstance(setting.target, Table):
+            machine = setting.target.applied(machine, float(value))
+    engine = Engine(machine, cycle_time)
+    inputs = {variable.name for variable in engine.variables if variable.causality == "input"}
+    given = _given(run, columns, inputs, cycle_time)
+    return {**given, **engine.run(given).values}, cycle_time, findings
+
+
+def _given(run: Run, columns: Columns, known: set[str], cycle_time: float) -> Columns:
+    """Return the inputs of a run: those of the trajectory, what follows from them, and what is varied."""
+    found = completed(columns, known, cycle_time)
+    cycles = len(next(iter(found.values())))
+    for setting, value in run.values.items():
+        if setting.kind == "input":
+            found[setting.name] = np.full(cycles, float(value))
+        elif setting.kind == "scaled input":
+            if setting.name not in found:
+                raise ValueError(f"there is no input {setting.name} to scale; there are {', '.join(found)}")
+            found[setting.name] = found[setting.name] * float(value)
+    return found
+
+
+@lru_cache(MACHINES_KEPT)
+def _machine(source: Source, entries: tuple[tuple[ListEntry, Value], ...]) -> tuple[Machine, str]:
+    """Return a machine and what its changes have given rise to."""
+    machine, findings = read_files(source.start, source.files, entries)
+    if not machine.axes:
+        raise ValueError("; ".join(["there is no axis in the lists", *(text for _, text in findings)]))
+    return machine, "\n".join(text for f, text in findings if (f.parameter, f.code) not in source.known)
+
+
+def _simulate_fmu(
+    source: Source, run: Run, columns: Columns, starts: Mapping[str, Any], cycle_time: float
+) -> tuple[Mapping[str, Column], float, str]:
+    from fmpy import simulate_fmu  # noqa: PLC0415 - only FMUs need it, and it takes long to load
+
+    if any(setting.of_lists for setting in run.values):
+        raise ValueError("lists cannot be varied in an FMU; expected a machine given by its lists")
+    folder, description = _unpacked(source)
+    variables = description.modelVariables
+    types = {v.name: np.bool_ if v.type == "Boolean" else np.int32 if v.type == "Integer" else np.float64
+             for v in variables if v.causality == "input" and v.type != "String"}  # fmt: skip
+    given = _given(run, columns, set(types), cycle_time)
+    for name in given:
+        if name not in types:
+            raise ValueError(f"{name} is no input; the inputs are {', '.join(types)}")
+    cycles = len(next(iter(given.values())))
+    rows = np.zeros(cycles, dtype=[("time", np.float64), *((name, types[name]) for name in given)])
+    rows["time"] = np.arange(cycles) * cycle_time
+    for name, column in given.items():
+        rows[name] = column
+    outputs = [v.name for v in variables if v.causality == "output" and v.type != "String"]
+    recorded = simulate_fmu(
+        folder,
+        model_description=description,
+        validate=False,
+        stop_time=cycles * cycle_time,
+        step_size=cycle_time,
+        output_interval=cycle_time,
+        input=rows,
+        output=outputs,
+        start_values=dict(starts),
+    )
+    # What is read after a step belongs to the inputs at its beginning: FMI 2.0 has no feedthrough inside a step.
+    return {**given, **{name: recorded[name][1 : cycles + 1] for name in outputs}}, cycle_time, ""
+
+
+class _Unpacked:
+    """An unpacked FMU; its folder goes with it."""
+
+    def __init__(self, source: Source) -> None:
+        from fmpy import extract, read_model_description  # noqa: PLC0415
+
+        self.folder = tempfile.mkdtemp(prefix="axcomp-sweep-")
+        packed = Path(self.folder, "packed.fmu")
+        packed.write_bytes(next(iter(source.files.values())))
+        extract(str(packed), unzipdir=self.folder)
+        self.description = read_model_description(self.folder, validate=False)
+
+    def __del__(self) -> None:
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+@lru_cache(MACHINES_KEPT)
+def _fmu(source: Source) -> _Unpacked:
+    return _Unpacked(source)
+
+
+def _unpacked(source: Source) -> tuple[str, Any]:
+    found = _fmu(source)
+    return found.folder, found.description
