@@ -35,6 +35,9 @@ ANGLES = {
 }
 """Units of angle, in 0.001°."""
 
+LARGEST = 1e9
+"""Numbers beyond it, whatever the unit, are no measurement."""
+
 _SPELLINGS = {"°": "deg", '"': "arcsec", "''": "arcsec", "″": "arcsec", "'": "arcmin", "′": "arcmin", "0.001°": "mdeg"}
 _HEADER = re.compile(r"\s*([^\W\d]\w*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*\Z")
 _DETAIL = re.compile(r"\s*(?:#|//)\s*([^\W\d][\w ]*?)\s*[:=]\s*(.*?)\s*\Z")
@@ -215,5 +218,7 @@ def _row(file: str, line: int, cells: Sequence[str], names: Sequence[tuple[Colum
         if value is None or not math.isfinite(value):
             kind = "direction (+ or −)" if column.direction else "number"
             raise MeasurementError(file, line, f"“{cell}” is no {kind}, as {column.name} has to be.")
+        if abs(value) > LARGEST:
+            raise MeasurementError(file, line, f"{cell} is too large for a measured {column.name}.")
         row.append(value)
     return row

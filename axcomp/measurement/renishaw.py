@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .columns import MeasurementError, read_text
+from .columns import LARGEST, MeasurementError, read_text
 from .motion import Array
 
 SUFFIX = ".rtl"
@@ -136,7 +136,7 @@ class _Reader:
             value = float(word)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value) or "_" in word:
+        if not abs(value) <= LARGEST or "_" in word:
             raise self._error(line, f"“{word}” is no number.")
         return value
 

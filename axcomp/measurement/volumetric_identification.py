@@ -153,7 +153,9 @@ class Identifier:
         solution = least_squares(too_much, np.zeros(len(kept)), jac=slopes, method="lm", xtol=1e-12, ftol=1e-12)
         residuals = self._left(split(solution.x), rows)
         scatter = float(np.sqrt(np.sum(residuals**2) / degrees)) if self._scatter is None else self._scatter
-        inverse = np.linalg.inv(jacobian.T @ jacobian)
+        # (JᵀJ)⁻¹ by QR: JᵀJ itself would lose half of the figures where errors are hard to tell apart.
+        root = np.linalg.inv(np.linalg.qr(jacobian, mode="r"))
+        inverse = root @ root.T
         deviations = split(np.sqrt(np.diag(inverse)) * scatter / MICRO)
         labels = [(sought.name, float(node)) for sought in self.sought for node in sought.nodes]
         return Identification(

@@ -106,6 +106,8 @@ class TcpModel:
         axes = tuple(Axis(number, letter, types[letter]) for letter, number in volumetric.axes)
         tables = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
         self._pool, self._table = tables.pool, tables.volumetric[0]
+        # Axes without known errors get some here.
+        self._table.exact[:] = [False] * len(LETTERS)
 
     def places(self, positions: Array) -> Array:
         """Return where the axes are for the model, (n, 6): with the offsets of the machine."""

@@ -1,10 +1,13 @@
 """Volumetric lists made from deviations of the tool tip, and what they leave of them."""
 
 import json
+import warnings
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from test_volumetric_identification import PLAIN, X, Y, Z, over, places_of, simulated
 
 from axcomp.cli import main
@@ -191,6 +194,24 @@ def test_json_has_values_uncertainties_and_covariance(tracker, capsys):
     assert np.shape(found["covariance"]) == (3, 3)
     assert found["redundant"] == [{"name": "EXX", "part": "its constant part", "others": ["X0X"]}]
     assert not (tracker / "vol_comp0.lis").exists()
+
+
+COORDINATE = st.one_of(st.integers(-300, 300).map(float), st.floats(-1e9, 1e9), st.just(0.0))
+
+
+@settings(deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.tuples(*[COORDINATE] * 6), min_size=1, max_size=10), st.sampled_from([["X0X", "EXX"], None]))
+def test_any_readings_make_a_plausible_list_or_a_sentence(tmp_path_factory, capsys, rows, names):
+    folder = tmp_path_factory.mktemp("v")
+    (folder / "m.csv").write_text("\n".join(",".join(map(str, row)) for row in rows))
+    words = ["--from", str(folder / "m.csv"), "--into", str(folder / "vol_comp0.lis"), *NEW[2:]]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        status = main(["create", "volumetric", *words, *(["--errors", *names] if names else [])])
+    out, err = capsys.readouterr()
+    assert (folder / "vol_comp0.lis").exists() == (status == 0)
+    assert err.count("\n") == status
+    assert "nan" not in out
 
 
 @pytest.mark.parametrize(

@@ -101,6 +101,7 @@ def test_angles_make_a_rotary_axis(file):
         ("0,1,+\n", "m.csv:1: There are 3 cells for 4 columns."),
         ("0,1,+,1\n1,1,+,x\n", "m.csv:2: “x” is no number, as deviation has to be."),
         ("0,1,+,1\n1,1,+,nan\n", "m.csv:2: “nan” is no number, as deviation has to be."),
+        ("0,1,+,1\n1,1,+,1e10\n", "m.csv:2: 1e10 is too large for a measured deviation."),
         ("0,1,2,1\n", "m.csv:1: “2” is no direction (+ or −), as direction has to be."),
         ("0,1.5,+,1\n", "m.csv:1: 1.5 is no number of a run; 1, 2, … are."),
         ("0,1,+,1\n\n0,1,+,2\n", "m.csv:3: Target 0 of run 1 is there already, in line 1."),
