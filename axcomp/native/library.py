@@ -13,20 +13,24 @@ from pathlib import Path
 
 from ..places import fmu_sources
 from .compiler import FLAGS, PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
+from .places import layout
 
 SOURCES = ("kernel.c", "run.c")
-HEADERS = ("kernel.h", "run.h")
+HEADERS = ("kernel.h", "layout.h", "run.h")
 SWITCH = "AXCOMP_KERNEL"
 """Environment variable: ``python`` keeps the Engine from using a compiled kernel."""
 
 
 @cache
 def compiled_kernel() -> ctypes.CDLL | None:
-    """Return the compiled kernel, None where there is none: no compiler, no sources, or switched off."""
+    """Return the compiled kernel, None where there is none: no compiler, other records, or switched off."""
     if os.environ.get(SWITCH) == "python" or sys.byteorder != "little" or ctypes.sizeof(ctypes.c_void_p) != 8:
         return None
     try:
-        return ctypes.CDLL(str(_library()))
+        kernel = ctypes.CDLL(str(_library()))
+        kernel.axcomp_layout.restype = ctypes.c_uint32
+        # The translation may be older than the records while somebody works on them.
+        return kernel if kernel.axcomp_layout() == layout() else None
     except (OSError, CompilerError):
         return None
 

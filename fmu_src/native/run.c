@@ -3,6 +3,13 @@
 
 #include <stdbool.h>
 
+#include "layout.h"
+
+uint32_t axcomp_layout(void)
+{
+    return AXCOMP_LAYOUT;
+}
+
 static void set_field(Inputs *inputs, Field field, double value)
 {
     char *at = (char *)inputs + field.offset;

@@ -8,6 +8,9 @@
 extern "C" {
 #endif
 
+/* AXCOMP_LAYOUT of the records this was compiled with. */
+AXCOMP_API uint32_t axcomp_layout(void);
+
 /* A field of Inputs or Outputs: its offset in bytes, and 'r' double, 'i' int32_t or 'b' bool. */
 typedef struct {
     int32_t offset;
