@@ -59,8 +59,8 @@ makes one whose libraries start Python. Variables, value references and results 
 | | native | `--runtime python` |
 | --- | --- | --- |
 | Needs in the host | nothing | Python 3.11 or later in its process, as FMPy has |
-| `update_path` | an image, made by `axcomp build --image FILE`, which shows the findings | a start-up list, \
-its folder or a single list; empty: those in `resources/` |
+| `update_path` | an image, made by `axcomp build --image FILE`, which shows the findings; empty: its own \
+one | a start-up list, its folder or a single list; empty: those in `resources/` |
 | Changed lists in `resources/` | are not read: they travel along; build again | act in the next instance; a new \
 compensation acts, but its variables are not there |
 | Serialized state after `reload` | comes back in instances that have read the same images | \
@@ -71,7 +71,8 @@ error say why |
 
 The native FMU's tables lie in `resources/tables.bin`; it belongs to the guid, so that of another FMU is refused.
 `fmpy compile axcomp.fmu`, or a host that takes source-code FMUs, compiles the sources with the tables in them
-(`tables.c`): such a library reads no file. It allocates memory when an instance or a state is made, not in steps.
+(`tables.c`): such a library reads no file unless `reload` asks for one. Memory is allocated when an instance or a state
+is made or `reload` is set, not in steps.
 
 ## Errors
 

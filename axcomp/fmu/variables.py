@@ -71,7 +71,7 @@ OF_MACHINE = (
         "update_path",
         "parameter",
         "",
-        "What reload reads: an image of tables; where Python runs in the FMU, lists (empty: those in resources)",
+        "What reload reads: an image of tables, or lists where Python runs in the FMU; empty: what lies in resources",
         variability="tunable",
     ),
     Declaration(

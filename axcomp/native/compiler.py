@@ -72,7 +72,7 @@ def compile_library(
     """
     linking = ["-shared", *(["-s"] if platform == "win64" else ["-fPIC", "-lm"])]
     if platform == "linux64":
-        linking += ["-Wl,-s", "-Wl,--build-id=none"]
+        linking += ["-Wl,-s", "-Wl,--build-id=none", "-ldl"]
     absolute = [str(source.absolute()) for source in sources]
     command = [*compiler, *FLAGS, *flags, *absolute, "-o", output.name, *linking]
     try:

@@ -14,6 +14,8 @@ import pytest
 from axcomp.cli import main
 from axcomp.lists import write_machine
 from axcomp.machine import Axis, Leadscrew, Machine
+from axcomp.native.compiler import own_platform
+from axcomp.native.image import MAGIC
 
 ROOT = Path(__file__).parents[2]
 
@@ -84,6 +86,40 @@ def test_a_missing_pythonfmu_is_a_sentence(
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
     assert main(["build", "--runtime", "python", "--machine", str(lists), "--output", str(tmp_path)]) == 1
     assert "pip install 'pythonfmu" in capsys.readouterr().err
+
+
+def test_platforms_are_those_of_the_native_fmu(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["build", "--machine", str(lists), "--output", str(tmp_path / "x.fmu")]
+    assert main([*options, "--platforms", own_platform()]) == 0
+    with pytest.raises(SystemExit, match="2"):
+        main([*options, "--platforms", "linux64,amiga"])
+    assert "there is no platform 'amiga'; there are linux64, win64, darwin64" in capsys.readouterr().err
+    assert main([*options, "--platforms", "win64", "--runtime", "python"]) == 1
+    assert "--platforms is for the native FMU" in capsys.readouterr().err
+
+
+def test_an_image_is_written_with_its_findings(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with (lists / "achskw1.lis").open("a", encoding="utf-8") as file:
+        file.write("kw.ssfk.nonsense 5\n")
+    assert main(["build", "--machine", str(lists), "--image", str(tmp_path / "new.bin")]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("new.bin: ")
+    assert "achskw1.lis" in err
+    assert (tmp_path / "new.bin").read_bytes().startswith(MAGIC)
+
+
+def test_without_a_compiler_the_other_runtime_is_named(
+    lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    find_spec = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "ziglang" else find_spec(name))
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path / "nothing"))
+    options = ["build", "--machine", str(lists), "--output", str(tmp_path / "x.fmu")]
+    assert main(options) == 1
+    assert "install gcc or clang" in (said := capsys.readouterr().err)
+    assert "--runtime python needs no compiler" in said
+    assert main([*options, "--runtime", "python"]) == 0
 
 
 def test_help_has_an_example(capsys: pytest.CaptureFixture[str]) -> None:

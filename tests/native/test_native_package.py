@@ -1,0 +1,167 @@
+"""What goes into the native FMU, and what is said when it cannot be built."""
+
+from __future__ import annotations
+
+import importlib.util
+import shutil
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+from fmu_machines import three_axes
+
+from axcomp.compile import compile_tables
+from axcomp.fmu.archive import BuildError
+from axcomp.fmu.native_package import HEADERS, SOURCES, NoCompilerError, package_native, write_image
+from axcomp.fmu.package import package_axcomp
+from axcomp.fmu.variables import Naming
+from axcomp.lists import write_machine
+from axcomp.native.compiler import PLATFORMS, compile_library, compiler_of, own_platform
+from axcomp.native.image import image_of
+from axcomp.native.places import layout_header, places_source
+from axcomp.places import fmu_sources, models
+
+NATIVE = fmu_sources() / "native"
+HAS_ZIG = importlib.util.find_spec("ziglang") is not None
+
+
+def contents(fmu: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(fmu) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def test_the_committed_layout_and_places_follow_from_the_declarations() -> None:
+    assert (NATIVE / "layout.h").read_text("utf-8") == layout_header(), "run python -m axcomp.native"
+    assert (NATIVE / "places.c").read_text("utf-8") == places_source(), "run python -m axcomp.native"
+
+
+def test_it_holds_library_image_lists_and_all_sources(native_fmu: Path, lists: Path) -> None:
+    files = contents(native_fmu)
+    own = own_platform()
+    description = fmpy.read_model_description(native_fmu)
+    assert [name for name in files if name.startswith("binaries/")] == [f"binaries/{own}/axcomp{PLATFORMS[own].suffix}"]
+    assert files["resources/tables.bin"] == image_of(compile_tables(three_axes()), description.guid)
+    assert files["resources/machine/hochlauf.lis"] == (lists / "hochlauf.lis").read_bytes()
+    sources = {name.removeprefix("sources/") for name in files if name.startswith("sources/")}
+    assert sources == {*SOURCES, *HEADERS, "tables.c", "config.h"}
+    compiled = description.buildConfigurations[0].sourceFileSets[0].sourceFiles
+    assert compiled == [*SOURCES, "tables.c"]
+    assert {path.name for path in NATIVE.iterdir()} == {*SOURCES, *HEADERS, "config.h", "run.c", "run.h"}
+
+
+@pytest.mark.parametrize("naming", ["structured", "flat"])
+def test_variables_units_and_descriptions_are_those_of_the_python_fmu(
+    native_fmu: Path, lists: Path, tmp_path: Path, naming: Naming
+) -> None:
+    assert native_fmu
+    native = contents(package_native(lists, tmp_path / "native.fmu", naming=naming).path)["modelDescription.xml"]
+    python = contents(package_axcomp(lists, tmp_path / "python.fmu", naming=naming).path)["modelDescription.xml"]
+    begin = b"  <UnitDefinitions>"
+    assert native.partition(begin)[2] == python.partition(begin)[2]
+    assert native.count(b"<ScalarVariable") > 40
+    assert b'needsExecutionTool="false"' in native
+
+
+def test_it_is_valid(native_fmu: Path) -> None:
+    assert validate_fmu(str(native_fmu)) == []
+
+
+def test_building_twice_gives_the_same_bytes(native_fmu: Path, lists: Path, tmp_path: Path) -> None:
+    shutil.copytree(lists, tmp_path / "elsewhere")
+    again = package_native(tmp_path / "elsewhere", tmp_path / "again.fmu").path
+    assert again.read_bytes() == native_fmu.read_bytes()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_libraries_do_not_depend_on_where_and_when_they_are_compiled(platform: str, tmp_path: Path) -> None:
+    if platform != own_platform() and not HAS_ZIG:
+        pytest.skip("there is no cross compiler: pip install axcomp[cross]")
+    libraries = []
+    for folder in (tmp_path / "one", tmp_path / "two, elsewhere"):
+        shutil.copytree(NATIVE, folder / "sources")
+        output = folder / f"axcomp{PLATFORMS[platform].suffix}"
+        sources = [folder / "sources" / name for name in SOURCES]
+        compiler = compiler_of(platform)
+        compile_library(sources, output, compiler=compiler, platform=platform, flags=["-Werror"])
+        libraries.append(output.read_bytes())
+        assert not any(part in libraries[-1] for part in (b"elsewhere", str(tmp_path).encode()))
+    assert libraries[0] == libraries[1]
+
+
+@pytest.mark.slow
+def test_three_platforms_and_the_sources_have_a_megabyte_at_most(tmp_path: Path) -> None:
+    if not HAS_ZIG:
+        pytest.skip("there is no cross compiler: pip install axcomp[cross]")
+    one = package_native(models() / "three_axis", tmp_path / "one.fmu").path
+    built = package_native(models() / "three_axis", tmp_path / "three.fmu", platforms=tuple(PLATFORMS)).path
+    assert {name for name in contents(built) if name.startswith("binaries/")} == {
+        "binaries/linux64/axcomp.so",
+        "binaries/win64/axcomp.dll",
+        "binaries/darwin64/axcomp.dylib",
+    }
+    assert built.stat().st_size <= 1_000_000
+    assert fmpy.read_model_description(built).guid == fmpy.read_model_description(one).guid
+
+
+def test_the_guid_follows_the_tables_and_variables_only(
+    native_fmu: Path, lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    guid = fmpy.read_model_description(native_fmu).guid
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    dated = package_native(lists, tmp_path / "dated.fmu").path
+    assert dated.read_bytes() != native_fmu.read_bytes()
+    assert fmpy.read_model_description(dated).guid == guid
+    slower = package_native(lists, tmp_path / "slower.fmu", cycle_time=0.002).path
+    assert fmpy.read_model_description(slower).guid != guid
+    write_machine(three_axes(2.0), tmp_path / "other")
+    assert fmpy.read_model_description(package_native(tmp_path / "other", tmp_path / "o.fmu").path).guid != guid
+
+
+def test_an_image_is_that_of_the_fmu(native_fmu: Path, lists: Path, tmp_path: Path) -> None:
+    built = write_image(lists, tmp_path)
+    assert built.path == tmp_path / "tables.bin"
+    assert built.path.read_bytes() == contents(native_fmu)["resources/tables.bin"]
+
+
+def test_an_image_that_cannot_be_written_is_a_sentence(lists: Path, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(BuildError, match="cannot be written"):
+        write_image(lists, tmp_path / "file" / "image.bin")
+
+
+@pytest.fixture
+def no_zig(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
+
+
+@pytest.mark.usefixtures("no_zig")
+def test_without_a_compiler_a_sentence_says_what_to_install(
+    lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(NoCompilerError, match=r"install gcc or clang, or pip install axcomp\[cross\]"):
+        package_native(lists, tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.usefixtures("no_zig")
+def test_another_platform_needs_a_cross_compiler(lists: Path, tmp_path: Path) -> None:
+    other = next(platform for platform in PLATFORMS if platform != own_platform())
+    with pytest.raises(NoCompilerError, match=rf"for {other} .* cross compiler is needed: pip install axcomp\[cross\]"):
+        package_native(lists, tmp_path, platforms=[own_platform(), other])
+
+
+@pytest.mark.usefixtures("no_zig")
+@pytest.mark.parametrize(
+    ("compiler", "sentence"), [("nowhere/cc -m64", "nowhere/cc cannot be run"), ("false", "false has failed")]
+)
+def test_a_compiler_that_fails_is_named(
+    lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, compiler: str, sentence: str
+) -> None:
+    monkeypatch.setenv("CC", compiler)
+    with pytest.raises(NoCompilerError, match=sentence):
+        package_native(lists, tmp_path)

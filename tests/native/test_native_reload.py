@@ -1,0 +1,177 @@
+"""Images that ``reload`` reads while the native FMU runs: good ones act, bad ones are refused as a whole."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fmu_host import Host, in_child
+from fmu_machines import three_axes, trajectory
+
+from axcomp.engine import Engine
+from axcomp.fmu.native_package import write_image
+from axcomp.lists import write_machine
+from axcomp.machine import Axis, Cross, Machine
+from axcomp.native.image import HEADER_BEFORE_CHECK
+
+REFUSED = 902
+
+
+def image(machine: Machine, folder: Path) -> Path:
+    write_machine(machine, folder / "lists")
+    return write_image(folder / "lists", folder / "new image ü.bin").path
+
+
+def reloaded(fmu: Path, path: str) -> tuple[list[float], list[int], list[str]]:
+    """Correction of X before and after the update, errors of all axes after it, and what the log says."""
+    with Host(fmu) as host:
+        before = host.step({"X.setpoint": 30.0, "update_path": path})
+        after = host.step({"reload": True})
+        corrections = [outputs["X.leadscrew.correction"] for outputs in (before, after)]
+        errors = [after[f"{axis}.error"] for axis in ("X", "Y_ACHSE", "C")]
+        return corrections, errors, [text for *_, text in host.messages]
+
+
+def test_a_good_image_acts(native_fmu: Path, tmp_path: Path) -> None:
+    path = image(three_axes(3.0), tmp_path)
+    assert in_child(reloaded, native_fmu, str(path)) == ([-0.03, -0.09], [0, 0, 0], [])
+    assert in_child(reloaded, native_fmu, path.as_uri()) == ([-0.03, -0.09], [0, 0, 0], [])
+
+
+def on_the_move(fmu: Path, path: Path, rows: list[dict[str, Any]], at: int) -> list[dict[str, Any]]:
+    with Host(fmu) as host:
+        outputs = host.run(rows[:at])
+        host.set({"update_path": str(path), "reload": True})
+        outputs += host.run(rows[at : at + 10])
+        host.set({"reload": False})
+        return outputs + host.run(rows[at + 10 :])
+
+
+def test_an_update_on_the_move_has_the_bits_of_the_engine(native_fmu: Path, tmp_path: Path) -> None:
+    rows = trajectory(160)
+    found = in_child(on_the_move, native_fmu, image(three_axes(3.0), tmp_path), rows, 73)
+    engine = Engine(three_axes())
+    expected = [engine.step(row) for row in rows[:73]]
+    engine.runtime.update(three_axes(3.0))
+    expected += [engine.step(row) for row in rows[73:]]
+    assert found == expected
+
+
+def resized(kind: str) -> Machine:
+    """Three axes, one of them with another ``max_points``, all of them with twice the pitch errors."""
+    axes = list(three_axes(2.0).axes)
+    place = next(k for k, axis in enumerate(axes) if getattr(axis, kind) is not None)
+    axes[place] = replace(axes[place], **{kind: replace(getattr(axes[place], kind), max_points=19)})
+    return Machine(tuple(axes))
+
+
+@pytest.mark.parametrize(
+    ("kind", "errors", "correction"),
+    [
+        ("leadscrew", [110638, 0, 0], -0.03),
+        ("cross", [0, 110639, 0], -0.06),
+        ("plane", [0, 110640, 0], -0.06),
+        ("friction", [110641, 0, 0], -0.03),
+    ],
+)
+def test_an_axis_with_other_sizes_keeps_its_lists(
+    native_fmu: Path, tmp_path: Path, kind: str, errors: list[int], correction: float
+) -> None:
+    path = image(resized(kind), tmp_path)
+    corrections, found, texts = in_child(reloaded, native_fmu, str(path))
+    assert (corrections, found) == ([-0.03, correction], errors)
+    axis = next(k for k, error in enumerate(errors, start=1) if error)
+    assert len(texts) == 1
+    assert f"axis {axis} keeps its old lists: error {errors[axis - 1]}" in texts[0]
+
+
+X, Y, C = three_axes().axes
+
+
+@pytest.mark.parametrize(
+    ("axes", "text"),
+    [
+        ((X, Y), "other axes"),
+        ((X, Y, C, Axis(4, "U")), "other axes"),
+        ((X, Y, replace(C, number=7)), "do not fit axis 3"),
+        ((replace(X, cross=Cross(2, (0.0, 1.0), (0.0, 0.1))), Y, C), "do not fit axis 1"),
+    ],
+)
+def test_an_image_of_another_machine_is_refused(
+    native_fmu: Path, tmp_path: Path, axes: tuple[Axis, ...], text: str
+) -> None:
+    if axes[2:] and axes[2].number == 7:
+        axes = (X, replace(Y, plane=None), axes[2])  # the plane's second master was axis 3
+    corrections, errors, texts = in_child(reloaded, native_fmu, str(image(Machine(axes), tmp_path)))
+    assert (corrections, errors) == ([-0.03, -0.03], [REFUSED] * 3)
+    assert len(texts) == 1
+    assert text in texts[0]
+
+
+def checked(data: bytes) -> bytes:
+    """Give altered bytes the checksum that belongs to them."""
+    start = HEADER_BEFORE_CHECK.size
+    return data[:start] + struct.pack("<I", zlib.crc32(data[start + 4 :])) + data[start + 4 :]
+
+
+def huge_offset(data: bytes) -> bytes:
+    """Let every 32-bit number of the first axis' tables that is small be a large one."""
+    table = bytearray(data)
+    for place in range(64, 64 + 400, 4):
+        if 0 < int.from_bytes(table[place : place + 4], "little") < 100:
+            table[place : place + 4] = (2**31 - 5).to_bytes(4, "little")
+    return checked(bytes(table))
+
+
+DAMAGES: dict[str, tuple[Callable[[bytes], bytes], str]] = {
+    "empty": (lambda _: b"", "truncated"),
+    "only a header": (lambda data: data[:64], "truncated"),
+    "a byte short": (lambda data: data[:-1], "truncated"),
+    "a byte too long": (lambda data: data + b"\0", "bytes too many"),
+    "one bit": (lambda data: data[:-9] + bytes([data[-9] ^ 16]) + data[-8:], "altered"),
+    "magic": (lambda data: b"AXCOMPT9" + data[8:], "no image"),
+    "a list": (lambda _: b"kw.ssfk.kw_nr_max 4\n" * 40, "no image"),
+    "layout": (lambda data: data[:8] + b"\1\2\3\4" + data[12:], "another version"),
+    "more axes": (lambda data: data[:12] + b"\xff\xff" + data[14:], "truncated"),
+    "absurd numbers": (lambda data: data[:16] + b"\xff\xff\xff\xff" + data[20:], "truncated"),
+    "guid": (lambda data: checked(data[:24] + b"x" * 40 + data[64:]), "guid is too long"),
+    "cycle time": (lambda data: checked(data[:64] + struct.pack("<d", float("nan")) + data[72:]), "contradict"),
+    "offsets": (huge_offset, "contradict"),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_image_is_refused_and_the_log_says_why(native_fmu: Path, tmp_path: Path, damage: str) -> None:
+    path = image(three_axes(3.0), tmp_path)
+    spoil, text = DAMAGES[damage]
+    path.write_bytes(spoil(path.read_bytes()))
+    corrections, errors, texts = in_child(reloaded, native_fmu, str(path))
+    assert (corrections, errors) == ([-0.03, -0.03], [REFUSED] * 3)
+    assert len(texts) == 1
+    assert text in texts[0]
+
+
+@pytest.mark.parametrize(("path", "text"), [("nowhere.bin", "cannot be read"), (".", "cannot be read")])
+def test_a_path_without_an_image_is_refused(native_fmu: Path, path: str, text: str) -> None:
+    corrections, errors, texts = in_child(reloaded, native_fmu, path)
+    assert (corrections, errors) == ([-0.03, -0.03], [REFUSED] * 3)
+    assert text in texts[0]
+
+
+def own_again(fmu: Path, new: Path) -> list[float]:
+    """Update, and go back with an empty path."""
+    with Host(fmu) as host:
+        host.step({"X.setpoint": 30.0, "update_path": str(new)})
+        values = [host.step({"reload": True})["X.leadscrew.correction"]]
+        host.step({"reload": False, "update_path": ""})
+        values.append(host.step({"reload": True})["X.leadscrew.correction"])
+        return values
+
+
+def test_an_empty_path_takes_the_fmus_own_image_again(native_fmu: Path, tmp_path: Path) -> None:
+    assert in_child(own_again, native_fmu, image(three_axes(3.0), tmp_path)) == [-0.09, -0.03]

@@ -1,0 +1,86 @@
+"""The sources in the FMU: they compile without a warning, hold the tables, and compute the same bits."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+from fmu_host import Host, in_child
+from fmu_machines import three_axes, trajectory
+
+from axcomp.engine import Engine
+from axcomp.native.compiler import PLATFORMS, own_platform
+
+COMPILERS = {
+    "C99": ["gcc", "-std=c99", "-pedantic"],
+    "GNU C": ["gcc"],
+    "no contraction needed": ["gcc", "-O3", "-mavx2", "-mfma"],
+    "C++": ["g++", "-x", "c++"],
+    "C++20": ["g++", "-std=c++20", "-x", "c++"],
+    "clang": ["clang", "-std=c99", "-pedantic"],
+    "clang, C++": ["clang++", "-x", "c++"],
+}
+
+
+def run_rows(fmu: Path, folder: Path, rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    with Host(fmu, folder=folder) as host:
+        return host.run(rows)
+
+
+def library_of(folder: Path) -> Path:
+    own = own_platform()
+    return folder / "binaries" / own / f"axcomp{PLATFORMS[own].suffix}"
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_they_compile_without_a_warning_and_need_no_file(native_fmu: Path, compiler: str, tmp_path: Path) -> None:
+    command = COMPILERS[compiler]
+    if not shutil.which(command[0]):
+        pytest.skip(f"there is no {command[0]} on this machine")
+    if "-mavx2" in command and "avx2" not in Path("/proc/cpuinfo").read_text():
+        pytest.skip("this machine has no AVX2")
+    folder = Path(fmpy.extract(native_fmu, tmp_path))
+    shutil.rmtree(folder / "resources")
+    library = library_of(folder)
+    library.unlink()
+    (sources,) = fmpy.read_model_description(folder).buildConfigurations[0].sourceFileSets
+    options = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o", str(library)]
+    run = subprocess.run(
+        [command[0], *options, *command[1:], *sources.sourceFiles, "-lm"],
+        cwd=folder / "sources",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    engine, rows = Engine(three_axes()), trajectory(400)
+    assert in_child(run_rows, native_fmu, folder, rows) == [engine.step(row) for row in rows]
+
+
+@pytest.mark.slow
+def test_fmpys_own_command_compiles_them(native_fmu: Path, tmp_path: Path) -> None:
+    if not shutil.which("cmake"):
+        pytest.skip("there is no CMake on this machine")
+    fmu = Path(shutil.copy(native_fmu, tmp_path))
+    command = ["-m", "fmpy", "compile", str(fmu), "--all-warnings", "--warning-as-error"]
+    run = subprocess.run([sys.executable, *command], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout + run.stderr
+    folder = Path(fmpy.extract(fmu, tmp_path / "fmu"))
+    assert library_of(folder).stat().st_size > library_of(Path(fmpy.extract(native_fmu, tmp_path / "o"))).stat().st_size
+    shutil.rmtree(folder / "resources")
+    engine, rows = Engine(three_axes()), trajectory(100)
+    assert in_child(run_rows, fmu, folder, rows) == [engine.step(row) for row in rows]
+    # The only functions it takes from elsewhere are those of the C library.
+    if shutil.which("nm"):
+        symbols = subprocess.run(
+            ["nm", "-D", "--defined-only", "--format=just-symbols", str(library_of(folder))],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split()
+        assert [name for name in symbols if not name.startswith(("fmi2", "axcomp_", "_"))] == []
