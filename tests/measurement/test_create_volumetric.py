@@ -1,6 +1,7 @@
 """Volumetric lists made from deviations of the tool tip, and what they leave of them."""
 
 import json
+import shutil
 import warnings
 from dataclasses import replace
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 from test_volumetric_identification import PLAIN, X, Y, Z, over, places_of, simulated
 
 from axcomp.cli import main
@@ -20,10 +22,13 @@ from axcomp.machine import Axis, Machine
 from axcomp.measurement.columns import MeasurementError
 from axcomp.measurement.create_volumetric import create_volumetric
 from axcomp.measurement.creation import LEFT_OUT, MEASURED, PREDICTED
-from axcomp.measurement.volumetric_model import TcpModel
+from axcomp.measurement.simulated import load_plant
+from axcomp.measurement.volumetric_model import TcpDeviations, TcpModel
 from axcomp.measurement.volumetric_target import VolumetricTarget
+from axcomp.places import models
 from axcomp.volumetric import ErrorTable
 
+FIVE_AXIS = models() / "five_axis"
 FINE = np.linspace(-400.0, 400.0, 161)
 SMOOTH = (
     over("X", FINE, 0.02 * np.sin(FINE / 90.0), "EXX"),
@@ -58,17 +63,23 @@ def folder(tmp_path):
     return tmp_path
 
 
-def compensated(measurement, found):
-    """Return what is left when the kernel corrects by the errors found and the true machine moves there, µm."""
+def corrected_by(found, measurement):
+    """Return the positions of a measurement as the kernel corrects them."""
     tables = compile_tables(Machine(tuple(Axis(n, name) for name, n in found.axes), (replace(found, index=0),)))
     table = tables.volumetric[0]
-    truth = TcpModel(TRUE)
     corrected = measurement.positions.copy()
     for place, position, tool in zip(corrected, measurement.positions.tolist(), measurement.tool_lengths, strict=True):
         errors, correction = zeros(72), zeros(3)
         errors_at(tables.pool, table, position, errors)
         assert correction_at(table, position, float(tool), errors, correction)
         place[:3] += correction
+    return corrected
+
+
+def compensated(measurement, found):
+    """Return what is left when the true machine moves where the kernel puts it, µm."""
+    truth = TcpModel(TRUE)
+    corrected = corrected_by(found, measurement)
     left = truth.deviations(corrected, measurement.tool_lengths, truth.known_errors(corrected))
     # The nominal tool tip moves with the axes one to one in this chain.
     return (left + corrected[:, :3] - measurement.positions[:, :3]) * 1e3
@@ -227,3 +238,38 @@ def test_any_readings_make_a_plausible_list_or_a_sentence(tmp_path_factory, caps
 def test_faults_are_sentences(capsys, words, sentence):
     assert main(["create", "volumetric", "--from", "tcp.csv", *words]) == 1
     assert capsys.readouterr().err.startswith(sentence)
+
+
+@pytest.mark.slow
+def test_a_five_axis_machine_of_rigid_bodies_is_identified_at_random_places(tmp_path):
+    """The plant and the nominal tool tip (SciPy) share nothing with the model that is fitted."""
+    folder = tmp_path / "m"
+    shutil.copytree(FIVE_AXIS, folder)
+    plant = load_plant(FIVE_AXIS)
+    random = np.random.default_rng(0)
+    limits = np.array([[-300, -250, -400, 0, -100, 0], [300, 250, 0, 0, 100, 360]], dtype=float)
+
+    def tip_errors(commanded, moved, tools):
+        found = []
+        for q, p, tool in zip(commanded, moved, tools, strict=True):
+            at = dict(zip("XYZABC", p.tolist(), strict=True))
+            plant.rest_at([at[name] for name in plant.names])
+            center = np.array([0.0, 0.0, -450.0])
+            tilted = Rotation.from_euler("y", -q[4], degrees=True).apply(q[:3] - [0.0, 0.0, tool] - center) + center
+            nominal = Rotation.from_euler("z", -q[5], degrees=True).apply(tilted)
+            found.append((np.array(plant.place((0.0, 0.0, -tool))) - nominal) * 1e3)
+        return np.array(found)
+
+    positions = random.uniform(*limits, (300, 6)).round(3)
+    tools = random.choice([0.0, 120.0, 200.0], 300)
+    deviations = tip_errors(positions, positions, tools)
+    target = VolumetricTarget(folder / "vol_comp1.lis")
+    target.volumetric = replace(target.volumetric, errors=())
+    measurement = TcpDeviations(positions, tools, deviations, np.ones(300, int))
+    creation = create_volumetric(measurement, target, nodes_max=9)
+    creation.write()
+    found = next(v for v in read_machine(folder, strict=True).machine.volumetric if v.index == 1)
+    left = tip_errors(positions, corrected_by(found, measurement), tools)
+    rms = np.sqrt(np.mean(np.sum(left**2, axis=1)))
+    assert creation.figures[PREDICTED]["rms"] < 0.03 * creation.figures[MEASURED]["rms"]
+    assert rms == pytest.approx(creation.figures[PREDICTED]["rms"], rel=0.1)
