@@ -8,33 +8,24 @@
 #include "places.h"
 
 enum {
-    ANY_PHASE = INSTANTIATED | INITIALIZATION | STEPPING | TERMINATED,
-    BEFORE_STEPS = INSTANTIATED | INITIALIZATION,
     WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING,
     WITH_VALUES = INITIALIZATION | STEPPING | TERMINATED
 };
 
 static const char STATE_MAGIC[8] = {'A', 'X', 'C', 'O', 'M', 'P', 'F', '1'};
 
-/* A state of the FMU: a copy of everything that changes, and the lists in force. */
-typedef struct {
-    const Lists *lists;
-    const Lists *waiting;
-    Memory memory;
-} Saved;
-
-/* Before the bytes of a serialized state. */
+/* A state of the FMU: a copy of everything that changes. It refers to the lists by their identity, so that it outlives
+ * the instance and fits another one; its bytes are the serialized state. */
 typedef struct {
     char magic[8];
+    uint32_t check;    /* CRC-32 of everything behind it, in serialized states */
     uint32_t layout;
-    uint32_t size;
+    uint32_t size;     /* of the memory */
     uint32_t lists;    /* identity of the lists in force */
-    uint32_t waiting;  /* and of those that wait; 0: none */
-    uint32_t check;    /* CRC-32 of the bytes */
-    uint32_t spare;
-} SavedHeader;
-
-#define SERIALIZED_SIZE (sizeof(SavedHeader) + sizeof(Memory))
+    uint32_t waiting;  /* and of those that wait */
+    uint32_t waits;    /* whether some do */
+    Memory memory;
+} Saved;
 
 /* The instance, if this call is allowed in its phase; else NULL, after telling the host. */
 static Instance *allowed(fmi2Component component, unsigned phases, const char *function)
@@ -45,6 +36,16 @@ static Instance *allowed(fmi2Component component, unsigned phases, const char *f
     }
     if ((instance->memory.phase & phases) == 0) {
         axcomp_say(instance, fmi2Error, "%s must not be called now", function);
+        return NULL;
+    }
+    return instance;
+}
+
+/* The instance, if a pointer that this call needs is there; else NULL, after telling the host. */
+static Instance *given(Instance *instance, const void *pointer, const char *function)
+{
+    if (instance != NULL && pointer == NULL) {
+        axcomp_say(instance, fmi2Error, "%s: an argument is NULL", function);
         return NULL;
     }
     return instance;
@@ -65,8 +66,11 @@ FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void)
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, fmi2Boolean on, size_t count,
                                                       const fmi2String categories[])
 {
-    Instance *instance = allowed(component, ANY_PHASE, "fmi2SetDebugLogging");
-    if (instance == NULL || (count > 0 && categories == NULL)) {
+    Instance *instance = (Instance *)component;
+    if (count > 0) {
+        instance = given(instance, categories, "fmi2SetDebugLogging");
+    }
+    if (instance == NULL) {
         return fmi2Error;
     }
     unsigned wanted = count == 0 ? ~0u : 0u;
@@ -90,32 +94,21 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, f
 
 /* ---- Creation and destruction ---- */
 
-/* Read the image that belongs to this FMU; returns 0 after telling the host why it cannot. */
-static int read_own_image(Instance *instance, fmi2String location)
+/* Read the tables that belong to this FMU; NULL after telling the host why that does not work. */
+static Lists *read_own_lists(Instance *instance, fmi2String location)
 {
 #if defined(AXCOMP_EMBEDDED)
     (void)location;
-    const char *complaint = axcomp_read_image((const unsigned char *)axcomp_image, axcomp_image_size, instance->first);
-    const char *path = "the image in the sources";
 #else
-    char path[PATH_LENGTH];
-    size_t size = 0;
-    if (location == NULL || !axcomp_path_of(location, "tables.bin", path)) {
+    static const char FILE_NAME[] = "tables.bin";
+    int known = location != NULL && location[0] != 0 ? axcomp_path_of(location, FILE_NAME, instance->own_path)
+                                                     : axcomp_path_beside_library(FILE_NAME, instance->own_path);
+    if (!known) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
-        return 0;
+        return NULL;
     }
-    unsigned char *data = axcomp_read_file(path, &size);
-    if (data == NULL) {
-        axcomp_say(instance, fmi2Error, "fmi2Instantiate: %s cannot be read", path);
-        return 0;
-    }
-    const char *complaint = axcomp_read_image(data, size, instance->first);
-    free(data);
 #endif
-    if (complaint != NULL) {
-        axcomp_say(instance, fmi2Error, "fmi2Instantiate: %s is refused: %s", path, complaint);
-    }
-    return complaint == NULL;
+    return axcomp_read_lists(instance, fmi2Error, "fmi2Instantiate", instance->own_path);
 }
 
 FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
@@ -134,8 +127,7 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
     instance->categories = ~0u;
     const char *known = name != NULL ? name : "";
     instance->name = (char *)malloc(strlen(known) + 1);
-    instance->first = (Lists *)calloc(1, sizeof *instance->first);
-    if (instance->name == NULL || instance->first == NULL) {
+    if (instance->name == NULL) {
         axcomp_free_instance(instance);
         return NULL;
     }
@@ -148,9 +140,10 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: this is an FMU for co-simulation");
     } else if (guid == NULL) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
-    } else if (read_own_image(instance, location)) {
-        usable = strcmp(guid, instance->first->guid) == 0;
-        if (!usable) {
+    } else {
+        instance->first = read_own_lists(instance, location);
+        usable = instance->first != NULL && strcmp(guid, instance->first->guid) == 0;
+        if (!usable && instance->first != NULL) {
             axcomp_say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,
                        instance->first->guid);
         }
@@ -222,7 +215,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Terminate)(fmi2Component component)
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Reset)(fmi2Component component)
 {
-    Instance *instance = allowed(component, ANY_PHASE, "fmi2Reset");
+    Instance *instance = (Instance *)component;
     if (instance == NULL) {
         return fmi2Error;
     }
@@ -276,11 +269,11 @@ static void *place_of(Instance *instance, fmi2ValueReference reference, char typ
 /* The instance, if values may be read now; during initialization the outputs are computed first. */
 static Instance *readable(fmi2Component component, const void *references, const void *values, size_t count)
 {
-    Instance *instance = allowed(component, WITH_VALUES, "fmi2Get…");
-    if (instance == NULL || (count > 0 && (references == NULL || values == NULL))) {
-        return NULL;
+    Instance *instance = allowed(component, WITH_VALUES, "fmi2Get...");
+    if (count > 0) {
+        instance = given(given(instance, references, "fmi2Get..."), values, "fmi2Get...");
     }
-    if (instance->memory.phase == INITIALIZATION) {
+    if (instance != NULL && instance->memory.phase == INITIALIZATION) {
         axcomp_preview_outputs(instance);
     }
     return instance;
@@ -303,8 +296,8 @@ static void *settable(Instance *instance, fmi2ValueReference reference, char typ
 
 static Instance *writable(fmi2Component component, const void *references, const void *values, size_t count)
 {
-    Instance *instance = allowed(component, WITH_INPUTS, "fmi2Set…");
-    return instance != NULL && (count == 0 || (references != NULL && values != NULL)) ? instance : NULL;
+    Instance *instance = allowed(component, WITH_INPUTS, "fmi2Set...");
+    return count == 0 ? instance : given(given(instance, references, "fmi2Set..."), values, "fmi2Set...");
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component component, const fmi2ValueReference references[],
@@ -425,22 +418,18 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component component, const 
     if (instance == NULL) {
         return fmi2Error;
     }
-    bool reload = instance->memory.controls.reload;
+    fmi2Status status = fmi2OK;
     const Place *place;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && status == fmi2OK; i++) {
         bool *value = (bool *)settable(instance, references[i], 'b', &place);
-        if (value == NULL) {
-            return fmi2Error;
+        if (value != NULL) {
+            *value = values[i] != fmi2False;
+        } else {
+            status = fmi2Error;
         }
-        *value = values[i] != fmi2False;
     }
-    if (instance->memory.controls.reload && !reload) {
-        axcomp_read_update(instance);
-    } else if (!instance->memory.controls.reload) {
-        instance->waiting = NULL;
-        instance->memory.refused = false;
-    }
-    return fmi2OK;
+    axcomp_watch_reload(instance, false);
+    return status;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const fmi2ValueReference references[],
@@ -452,15 +441,16 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const f
     }
     const Place *place;
     for (size_t i = 0; i < count; i++) {
-        char *value = (char *)place_of(instance, references[i], 's', &place);
+        char *value = (char *)settable(instance, references[i], 's', &place);
         if (value == NULL) {
             return fmi2Error;
         }
         if (values[i] == NULL || strlen(values[i]) + 1 > PATH_LENGTH) {
             return axcomp_say(instance, fmi2Error, "a string is missing, or has more than %d bytes", PATH_LENGTH - 1);
         }
-        memcpy(value, values[i], strlen(values[i]) + 1);
+        memmove(value, values[i], strlen(values[i]) + 1);
     }
+    axcomp_watch_reload(instance, true);
     return fmi2OK;
 }
 
@@ -468,50 +458,64 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const f
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2FMUstate *state)
 {
-    Instance *instance = allowed(component, ANY_PHASE, "fmi2GetFMUstate");
-    if (instance == NULL || state == NULL) {
+    Instance *instance = given((Instance *)component, state, "fmi2GetFMUstate");
+    if (instance == NULL) {
         return fmi2Error;
     }
     if (*state == NULL) {
-        *state = malloc(sizeof(Saved));
+        *state = calloc(1, sizeof(Saved));
     }
     Saved *saved = (Saved *)*state;
     if (saved == NULL) {
         return axcomp_say(instance, fmi2Error, "fmi2GetFMUstate: there is no memory for the state");
     }
-    saved->lists = instance->lists;
-    saved->waiting = instance->waiting;
-    saved->memory = instance->memory;
+    memcpy(saved->magic, STATE_MAGIC, sizeof saved->magic);
+    saved->layout = AXCOMP_LAYOUT;
+    saved->size = (uint32_t)sizeof saved->memory;
+    saved->lists = instance->lists->identity;
+    saved->waits = instance->waiting != NULL;
+    saved->waiting = instance->waiting != NULL ? instance->waiting->identity : 0;
+    saved->check = 0;
+    memcpy(&saved->memory, &instance->memory, sizeof saved->memory);
     return fmi2OK;
 }
 
-/* The instance's own lists with an identity, NULL if it has none. */
-static Lists *lists_with(const Instance *instance, uint32_t identity)
+/* Whether this is a state that this version has made. */
+static bool is_state(const Saved *saved)
 {
-    Lists *lists = instance->first;
-    while (lists != NULL && lists->identity != identity) {
-        lists = lists->next;
-    }
-    return lists;
+    return memcmp(saved->magic, STATE_MAGIC, sizeof saved->magic) == 0 && saved->layout == AXCOMP_LAYOUT
+        && saved->size == sizeof saved->memory;
+}
+
+static uint32_t check_of(const Saved *saved)
+{
+    return axcomp_crc32(0, (const char *)saved + offsetof(Saved, layout), sizeof *saved - offsetof(Saved, layout));
+}
+
+/* Whether the instance has the lists of a state. */
+static bool has_lists(const Instance *instance, const Saved *saved)
+{
+    return axcomp_lists_with(instance, saved->lists) != NULL
+        && (saved->waits == 0 || axcomp_lists_with(instance, saved->waiting) != NULL);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2FMUstate state)
 {
-    Instance *instance = allowed(component, ANY_PHASE, "fmi2SetFMUstate");
-    if (instance == NULL || state == NULL) {
+    Instance *instance = given((Instance *)component, state, "fmi2SetFMUstate");
+    const Saved *saved = (const Saved *)state;
+    if (instance == NULL) {
         return fmi2Error;
     }
-    const Saved *saved = (const Saved *)state;
-    /* The state may be another instance's: what counts are lists that are equal, not the same. */
-    Lists *lists = lists_with(instance, saved->lists->identity);
-    Lists *waiting = saved->waiting == NULL ? NULL : lists_with(instance, saved->waiting->identity);
-    if (lists == NULL || (waiting == NULL) != (saved->waiting == NULL)) {
+    if (!is_state(saved)) {
+        return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state is of another version");
+    }
+    if (!has_lists(instance, saved)) {
         return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
     }
-    instance->memory = saved->memory;
-    instance->lists = lists;
-    instance->waiting = waiting;
-    lists->tables.cycle_time = instance->memory.controls.cycle_time;
+    memcpy(&instance->memory, &saved->memory, sizeof instance->memory);
+    instance->lists = axcomp_lists_with(instance, saved->lists);
+    instance->waiting = saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL;
+    instance->lists->tables.cycle_time = instance->memory.controls.cycle_time;
     return fmi2OK;
 }
 
@@ -529,68 +533,63 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2FreeFMUstate)(fmi2Component component, fmi2
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializedFMUstateSize)(fmi2Component component, fmi2FMUstate state, size_t *size)
 {
-    if (component == NULL || state == NULL || size == NULL) {
+    Instance *instance = given((Instance *)component, state, "fmi2SerializedFMUstateSize");
+    if (given(instance, size, "fmi2SerializedFMUstateSize") == NULL) {
         return fmi2Error;
     }
-    *size = SERIALIZED_SIZE;
+    *size = sizeof(Saved);
     return fmi2OK;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
                                                         size_t size)
 {
-    Instance *instance = (Instance *)component;
-    if (instance == NULL || state == NULL || bytes == NULL) {
+    Instance *instance = given((Instance *)component, state, "fmi2SerializeFMUstate");
+    if (given(instance, bytes, "fmi2SerializeFMUstate") == NULL) {
         return fmi2Error;
     }
-    if (size < SERIALIZED_SIZE) {
+    if (size < sizeof(Saved)) {
         return axcomp_say(instance, fmi2Error, "fmi2SerializeFMUstate: the state has more bytes");
     }
     const Saved *saved = (const Saved *)state;
-    SavedHeader header;
-    memset(&header, 0, sizeof header);
-    memcpy(header.magic, STATE_MAGIC, sizeof header.magic);
-    header.layout = AXCOMP_LAYOUT;
-    header.size = (uint32_t)sizeof saved->memory;
-    header.lists = saved->lists->identity;
-    header.waiting = saved->waiting == NULL ? 0 : saved->waiting->identity;
-    header.check = axcomp_crc32(0, &saved->memory, sizeof saved->memory);
-    memcpy(bytes, &header, sizeof header);
-    memcpy(bytes + sizeof header, &saved->memory, sizeof saved->memory);
+    uint32_t check = check_of(saved);
+    memcpy(bytes, saved, sizeof *saved);
+    memcpy(bytes + offsetof(Saved, check), &check, sizeof check);
     return fmi2OK;
+}
+
+/* What is wrong with the bytes of a state, NULL: nothing. */
+static const char *complaint_about(const Instance *instance, const Saved *saved)
+{
+    if (!is_state(saved)) {
+        return "the state is of another version";
+    }
+    if (check_of(saved) != saved->check) {
+        return "the state has been altered";
+    }
+    return has_lists(instance, saved) ? NULL : "the state belongs to other lists";
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component component, const fmi2Byte bytes[], size_t size,
                                                           fmi2FMUstate *state)
 {
-    Instance *instance = (Instance *)component;
-    SavedHeader header;
-    if (instance == NULL || bytes == NULL || state == NULL) {
+    Instance *instance = given((Instance *)component, bytes, "fmi2DeSerializeFMUstate");
+    if (given(instance, state, "fmi2DeSerializeFMUstate") == NULL) {
         return fmi2Error;
     }
-    if (size != SERIALIZED_SIZE) {
+    if (size != sizeof(Saved)) {
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is truncated, or none of this FMU");
-    }
-    memcpy(&header, bytes, sizeof header);
-    if (memcmp(header.magic, STATE_MAGIC, sizeof header.magic) != 0 || header.layout != AXCOMP_LAYOUT
-        || header.size != sizeof(Memory)) {
-        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is of another version");
-    }
-    if (axcomp_crc32(0, bytes + sizeof header, sizeof(Memory)) != header.check) {
-        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state has been altered");
-    }
-    const Lists *lists = lists_with(instance, header.lists);
-    const Lists *waiting = header.waiting == 0 ? NULL : lists_with(instance, header.waiting);
-    if (lists == NULL || (waiting == NULL && header.waiting != 0)) {
-        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state belongs to other lists");
     }
     Saved *saved = (Saved *)malloc(sizeof *saved);
     if (saved == NULL) {
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: there is no memory for the state");
     }
-    saved->lists = lists;
-    saved->waiting = waiting;
-    memcpy(&saved->memory, bytes + sizeof header, sizeof saved->memory);
+    memcpy(saved, bytes, sizeof *saved);
+    const char *complaint = complaint_about(instance, saved);
+    if (complaint != NULL) {
+        free(saved);
+        return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: %s", complaint);
+    }
     *state = saved;
     return fmi2OK;
 }

@@ -34,7 +34,8 @@ typedef struct Lists {
     uint32_t identity;  /* equal for equal tables */
     double cycle_time;   /* s; that of the tables may be set by the host */
     char guid[GUID_LENGTH];
-    double *pool;  /* owned */
+    int32_t errors[AXES];  /* of an axis that keeps its old tables when these are taken: why; else 0 */
+    double *pool;          /* owned */
     struct Lists *next;
 } Lists;
 

@@ -11,7 +11,7 @@
 
 enum { MESSAGE_LENGTH = 1024 };
 
-static const double ON_INSTANT = 1e-6;     /* share of a cycle by which a communication point may miss an instant */
+static const double ON_INSTANT = 0.01;     /* share of a cycle by which a communication point may miss an instant */
 static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
@@ -23,7 +23,7 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
     if (instance->callbacks.logger == NULL || (!wanted && category != CATEGORY_ERROR)) {
         return status;
     }
-    char message[MESSAGE_LENGTH];
+    char message[MESSAGE_LENGTH] = "";
     char doubled[2 * MESSAGE_LENGTH];
     va_list arguments;
     va_start(arguments, format);
@@ -60,85 +60,141 @@ void axcomp_begin_again(Instance *instance)
     axcomp_set_initial_inputs(&instance->lists->tables, &memory->inputs);
 }
 
-/* Read an image from a file into lists of their own; says what is wrong. */
-static Lists *read_lists(Instance *instance, const char *path)
+static void free_lists(Lists *lists)
 {
-    size_t size = 0;
-    unsigned char *data = axcomp_read_file(path, &size);
-    if (data == NULL) {
-        axcomp_say(instance, fmi2Warning, "reload: %s cannot be read", path);
-        return NULL;
+    if (lists != NULL) {
+        free(lists->pool);
+        free(lists);
     }
+}
+
+Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path)
+{
+    const char *complaint = "there is no memory for it";
     Lists *lists = (Lists *)calloc(1, sizeof *lists);
-    const char *complaint = lists == NULL ? "there is no memory for it" : axcomp_read_image(data, size, lists);
-    free(data);
-    if (complaint != NULL) {
-        axcomp_say(instance, fmi2Warning, "reload: %s is refused: %s", path, complaint);
+#if defined(AXCOMP_EMBEDDED)
+    if (path[0] == 0) {
+        path = "the image in the sources";
         if (lists != NULL) {
-            free(lists->pool);
-            free(lists);
+            complaint = axcomp_read_image((const unsigned char *)axcomp_image, axcomp_image_size, lists);
         }
+    } else
+#endif
+    {
+        size_t size = 0;
+        unsigned char *data = axcomp_read_file(path, &size);
+        if (data == NULL) {
+            axcomp_say(instance, status, "%s: %s cannot be read", call, path);
+            free_lists(lists);
+            return NULL;
+        }
+        if (lists != NULL) {
+            complaint = axcomp_read_image(data, size, lists);
+        }
+        free(data);
+    }
+    if (complaint != NULL) {
+        axcomp_say(instance, status, "%s: %s is refused: %s", call, path, complaint);
+        free_lists(lists);
         return NULL;
     }
-    lists->next = instance->first->next;
-    instance->first->next = lists;
     return lists;
 }
 
-void axcomp_read_update(Instance *instance)
+/* Tell whether new lists can be taken at all; those axes that cannot take theirs get the ones in force. */
+static bool fit_update(const Instance *instance, Lists *lists)
 {
-    char path[PATH_LENGTH];
-    const Tables *now = &instance->lists->tables;
-    const char *given = instance->memory.controls.update_path;
-    Lists *lists = axcomp_path_of(given, NULL, path) && path[0] != 0 ? read_lists(instance, path) : NULL;
-    if (path[0] == 0) {
-        axcomp_say(instance, fmi2Warning, "reload: update_path names no image");
-    }
-    if (lists != NULL && (lists->tables.axis_count != now->axis_count || lists->tables.volumetrics > now->volumetrics)) {
+    const Lists *now = instance->lists;
+    if (lists->tables.axis_count != now->tables.axis_count || lists->tables.volumetrics > now->tables.volumetrics) {
         axcomp_say(instance, fmi2Warning,
                    "reload: the new lists have other axes or compensations than the ones in force");
+        return false;
+    }
+    uint32_t mixed = axcomp_crc32(lists->identity, &now->identity, sizeof now->identity);
+    for (int i = 0; i < now->tables.axis_count; i++) {
+        const AxisTable *old = &now->tables.axis[i];
+        lists->errors[i] = axcomp_update_error(old, &lists->tables.axis[i]);
+        if (lists->errors[i] == ERROR_UPDATE) {
+            axcomp_say(instance, fmi2Warning, "reload: the new lists do not fit axis %d", old->number);
+            return false;
+        }
+        if (lists->errors[i] != 0) {
+            axcomp_say(instance, fmi2Warning, "reload: axis %d keeps its old lists: error %d", old->number,
+                       lists->errors[i]);
+            lists->tables.axis[i] = *old;
+            lists->identity = mixed;
+        }
+    }
+    return true;
+}
+
+Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
+{
+    Lists *lists = instance->first;
+    while (lists != NULL && lists->identity != identity) {
+        lists = lists->next;
+    }
+    return lists;
+}
+
+void axcomp_watch_reload(Instance *instance, bool path_set)
+{
+    Memory *memory = &instance->memory;
+    if (!memory->controls.reload) {
+        instance->waiting = NULL;
+        memory->refused = false;
+        return;
+    }
+    bool is_read = instance->waiting != NULL || memory->refused;
+    if (memory->reload_seen || (is_read && !path_set)) {
+        return;
+    }
+    char path[PATH_LENGTH];
+    axcomp_path_of(memory->controls.update_path, NULL, path);
+    Lists *lists = axcomp_read_lists(instance, fmi2Warning, "reload", path[0] != 0 ? path : instance->own_path);
+    if (lists != NULL && !fit_update(instance, lists)) {
+        free_lists(lists);
         lists = NULL;
     }
-    for (int i = 0; lists != NULL && i < now->axis_count; i++) {
-        if (axcomp_update_error(&now->axis[i], &lists->tables.axis[i]) == ERROR_UPDATE) {
-            axcomp_say(instance, fmi2Warning, "reload: the new lists do not fit axis %d", now->axis[i].number);
-            lists = NULL;
+    if (lists != NULL) {
+        /* The same again needs no memory: an instance may be updated as often as one likes. */
+        Lists *known = axcomp_lists_with(instance, lists->identity);
+        if (known != NULL) {
+            free_lists(lists);
+            lists = known;
+        } else {
+            lists->next = instance->first->next;
+            instance->first->next = lists;
         }
     }
     instance->waiting = lists;
-    instance->memory.refused = lists == NULL;
+    memory->refused = lists == NULL;
 }
 
-/* Take the lists that wait: axis by axis, one whose reserved sizes differ keeps its old ones. */
+/* Take the lists that wait, or tell by the outputs that they were refused. */
 static void take_update(Instance *instance)
 {
     Memory *memory = &instance->memory;
     Lists *before = instance->lists;
     Lists *after = instance->waiting;
-    if (memory->refused) {
+    if (memory->refused || after != NULL) {
         for (int i = 0; i < before->tables.axis_count; i++) {
-            memory->state.axis[i].error = memory->outputs.axis[i].error = ERROR_UPDATE;
-        }
-    } else if (after != NULL) {
-        for (int i = 0; i < before->tables.axis_count; i++) {
-            const AxisTable *old = &before->tables.axis[i];
-            int32_t error = axcomp_update_error(old, &after->tables.axis[i]);
+            int32_t error = memory->refused ? ERROR_UPDATE : after->errors[i];
             memory->state.axis[i].error = memory->outputs.axis[i].error = error;
             if (error == 0) {
-                axcomp_adopt_axis(old, &after->tables.axis[i], &memory->state.axis[i], &memory->outputs.axis[i]);
-            } else {
-                after->tables.axis[i] = *old;
-                after->identity =
-                    axcomp_crc32(after->identity, &before->identity, sizeof before->identity) + (uint32_t)i;
-                axcomp_say(instance, fmi2Warning, "axis %d keeps its old lists: error %d", old->number, error);
+                axcomp_adopt_axis(&before->tables.axis[i], &after->tables.axis[i], &memory->state.axis[i],
+                                  &memory->outputs.axis[i]);
             }
         }
+    }
+    if (after != NULL) {
         axcomp_adopt_volumetrics(&before->tables, &after->tables, &memory->state, &memory->outputs);
         after->tables.cycle_time = before->tables.cycle_time;
         instance->lists = after;
     }
     instance->waiting = NULL;
     memory->refused = false;
+    memory->reload_seen = memory->controls.reload;
 }
 
 void axcomp_preview_outputs(Instance *instance)
@@ -165,11 +221,11 @@ static void give_notice(Instance *instance)
 fmi2Status axcomp_advance(Instance *instance, double time)
 {
     Memory *memory = &instance->memory;
-    take_update(instance);
     double due = ceil((time - memory->start_time) / instance->lists->tables.cycle_time - ON_INSTANT);
     if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
         return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
     }
+    take_update(instance);
     for (; memory->cycles < due; memory->cycles += 1.0) {
         axcomp_cycle(&instance->lists->tables, &memory->state, &memory->inputs, &memory->outputs);
     }
@@ -181,8 +237,7 @@ void axcomp_free_instance(Instance *instance)
 {
     for (Lists *lists = instance->first; lists != NULL;) {
         Lists *next = lists->next;
-        free(lists->pool);
-        free(lists);
+        free_lists(lists);
         lists = next;
     }
     free(instance->name);

@@ -31,12 +31,14 @@ typedef struct {
     double start_time;  /* s */
     double cycles;      /* run so far */
     Phase phase;
+    bool reload_seen;   /* `reload` was on in the last step: there is no edge until it has been off */
     bool refused;       /* the update that waits for the next step was refused */
 } Memory;
 
 typedef struct {
     fmi2CallbackFunctions callbacks;
     char *name;
+    char own_path[PATH_LENGTH];  /* of the image that belongs to this FMU; "": it is in the sources */
     bool logging;
     unsigned categories;  /* bit k: category k of axcomp_log_categories */
     Lists *lists;         /* in force; all that were ever read hang behind `first` */
@@ -56,8 +58,16 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
 /* Put the instance back to what it is right after instantiation. */
 void axcomp_begin_again(Instance *instance);
 
-/* Read an image in `update_path` (on a rising edge of `reload`); the next step takes or refuses it. */
-void axcomp_read_update(Instance *instance);
+/* Read the tables of an image, "": the one in the sources. Returns lists that hang nowhere yet, or NULL after telling
+ * the host with `status` what is wrong; `call`: who wants them. */
+Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path);
+
+/* Look at `reload` and `update_path`, of which one has been set. On a rising edge the image is read (an empty path: the
+ * FMU's own one); the next step takes or refuses it. `path_set`: what was read before may be another one. */
+void axcomp_watch_reload(Instance *instance, bool path_set);
+
+/* The instance's lists with an identity, NULL if it has none. */
+Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
 
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);

@@ -1,5 +1,10 @@
 /* Paths, URIs and files. A path may hold any character; on Windows it becomes UTF-16 for the system. */
+#if !defined(_WIN32) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* for dladdr */
+#endif
 #include "resource.h"
+
+#include "config.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +14,8 @@
 #include <wchar.h>
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
+#elif !defined(AXCOMP_EMBEDDED)
+#include <dlfcn.h>
 #endif
 
 static int digit_of(char c)
@@ -42,6 +49,8 @@ static const char *path_in_uri(const char *location, int *is_uri)
         location += 2;
         if (strncmp(location, "localhost/", 10) == 0) {
             location += 9;
+        } else if (location[0] != '/' && !is_drive(location)) {
+            return location - 2; /* //server/share/... */
         }
     }
     while (location[0] == '/' && location[1] == '/') {
@@ -54,6 +63,7 @@ int axcomp_path_of(const char *location, const char *file, char *path)
 {
     int is_uri;
     size_t length = 0;
+    path[0] = 0;
     for (const char *from = path_in_uri(location, &is_uri); *from != 0; from++) {
         int high = is_uri && *from == '%' ? digit_of(from[1]) : -1;
         int low = high >= 0 ? digit_of(from[2]) : -1;
@@ -80,6 +90,51 @@ int axcomp_path_of(const char *location, const char *file, char *path)
     }
     return 1;
 }
+
+#if defined(AXCOMP_EMBEDDED)
+int axcomp_path_beside_library(const char *file, char *path)
+{
+    (void)file;
+    path[0] = 0;
+    return 0;
+}
+#else
+/* Put the path of this library into `path`; 0 if that does not work. */
+static int path_of_library(char *path)
+{
+    static const char INSIDE = 0; /* an address in this library */
+#if defined(_WIN32)
+    HMODULE library;
+    wchar_t wide[PATH_LENGTH];
+    const DWORD flags = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
+    DWORD length = GetModuleHandleExA(flags, &INSIDE, &library) ? GetModuleFileNameW(library, wide, PATH_LENGTH) : 0;
+    return length > 0 && length < PATH_LENGTH
+        && WideCharToMultiByte(CP_UTF8, 0, wide, -1, path, PATH_LENGTH, NULL, NULL) > 0;
+#else
+    Dl_info info;
+    return dladdr(&INSIDE, &info) != 0 && info.dli_fname != NULL && axcomp_path_of(info.dli_fname, NULL, path);
+#endif
+}
+
+int axcomp_path_beside_library(const char *file, char *path)
+{
+    static const char RESOURCES[] = "../../resources/";
+    path[0] = 0;
+    if (!path_of_library(path)) {
+        return 0;
+    }
+    size_t length = strlen(path);
+    while (length > 0 && path[length - 1] != '/' && path[length - 1] != '\\') {
+        length--;
+    }
+    if (length + sizeof RESOURCES + strlen(file) > PATH_LENGTH) {
+        return 0;
+    }
+    memcpy(path + length, RESOURCES, sizeof RESOURCES);
+    memcpy(path + length + sizeof RESOURCES - 1, file, strlen(file) + 1);
+    return 1;
+}
+#endif
 
 static FILE *open_file(const char *path)
 {

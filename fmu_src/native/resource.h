@@ -14,6 +14,10 @@ enum { PATH_LENGTH = 4096 };
  * unless that is NULL. Returns 0 if it does not fit into PATH_LENGTH bytes. */
 int axcomp_path_of(const char *location, const char *file, char *path);
 
+/* Put the path of a file in the resources into `path` for a library that lies in binaries/<platform> beside them.
+ * Returns 0 if the system does not tell where the library is. */
+int axcomp_path_beside_library(const char *file, char *path);
+
 /* Read a whole file; its bytes are to be freed. Returns NULL if it cannot be read. */
 unsigned char *axcomp_read_file(const char *path, size_t *size);
 
