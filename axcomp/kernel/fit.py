@@ -6,6 +6,7 @@ The table compiler makes only such tables; tables that come from a file are look
 from __future__ import annotations
 
 from .crosstalk import CROSSTALK_CURVE, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
+from .interpolation import ascending, range_fits
 from .record import Vec
 from .records import (
     AXES,
@@ -20,6 +21,8 @@ from .records import (
     SwitchTable,
     Tables,
 )
+from .volumetric_fit import volumetric_fits
+from .volumetric_records import VOLUMETRICS
 
 CYCLES_MAX = 20  # of a transition (P-COMP-00026, P-AXIS-00243)
 LOOKAHEAD_MAX = 4  # P-COMP-00044
@@ -31,6 +34,11 @@ def tables_fit(tables: Tables, numbers: int) -> bool:
         return False
     for i in range(tables.axis_count):
         if not axis_fits(tables.axis[i].pool, tables.axis[i], tables.axis_count, numbers):
+            return False
+    if not 0 <= tables.volumetrics <= VOLUMETRICS:
+        return False
+    for k in range(tables.volumetrics):
+        if not volumetric_fits(tables.pool, tables.volumetric[k], tables.axis_count, numbers):
             return False
     return True
 
@@ -142,21 +150,6 @@ def switch_fits(table: SwitchTable) -> bool:
 def curve_fits(pool: Vec, curve: Curve, numbers: int) -> bool:
     """Tell whether a curve lies in the pool and its abscissae ascend."""
     return ascending(pool, curve.x, curve.points, numbers) and range_fits(curve.y, curve.points, numbers)
-
-
-def ascending(pool: Vec, first: int, points: int, numbers: int) -> bool:
-    """Tell whether so many numbers lie in the pool and ascend strictly."""
-    if not range_fits(first, points, numbers):
-        return False
-    for k in range(points - 1):
-        if not pool[first + k] < pool[first + k + 1]:
-            return False
-    return True
-
-
-def range_fits(first: int, count: int, numbers: int) -> bool:
-    """Tell whether so many numbers from ``first`` on lie in the pool."""
-    return first >= 0 and 0 < count <= numbers and first <= numbers - count
 
 
 def index_fits(index: int, axes: int) -> bool:

@@ -47,3 +47,18 @@ def nearest(change: float, length: float) -> float:
     if length > 0.0:
         return change - length * whole(change / length + 0.5)
     return change
+
+
+def ascending(pool: Vec, first: int, points: int, numbers: int) -> bool:
+    """Tell whether so many numbers lie in the pool and ascend strictly."""
+    if not range_fits(first, points, numbers):
+        return False
+    for k in range(points - 1):
+        if not pool[first + k] < pool[first + k + 1]:
+            return False
+    return True
+
+
+def range_fits(first: int, count: int, numbers: int) -> bool:
+    """Tell whether so many numbers from ``first`` on lie in the pool."""
+    return first >= 0 and 0 < count <= numbers and first <= numbers - count

@@ -20,6 +20,7 @@ static inline int32_t int_min(int32_t a, int32_t b) { return b < a ? b : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
+static bool range_fits(int32_t first, int32_t count, int32_t numbers);
 static double test_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
         double position1, double position2);
 static double scattered_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
@@ -90,6 +91,12 @@ static void add_friction_current(const Tables *tables, const AxisTable *table, A
 static bool appears(const SwitchTable *before, const SwitchTable *after);
 static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state);
 static void forget(Lookup *lookup);
+static bool members_fit(const VolumetricTable *table, int32_t axes);
+static bool chain_fits(const VolumetricTable *table);
+static bool counts(const double *pool, int32_t first, int32_t count, int32_t limit);
+static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numbers);
+static bool knots_fit(const double *pool, const ErrorBlock *block, int32_t numbers);
+static bool steps_fit(const double *pool, const ErrorBlock *block, int32_t d, int32_t numbers);
 static bool axis_fits(const double *pool, const AxisTable *table, int32_t axes, int32_t numbers);
 static bool friction_fits(const double *pool, const FrictionTable *table, int32_t numbers);
 static bool cross_fits(const double *pool, const CrossTable *table, int32_t axes, int32_t numbers);
@@ -99,10 +106,8 @@ static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int3
 static bool switch_fits(const SwitchTable *table);
 static bool index_fits(int32_t index, int32_t axes);
 static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers);
-static bool range_fits(int32_t first, int32_t count, int32_t numbers);
 static bool grid_fits(const double *pool, const CrosstalkTable *table, int32_t numbers);
 static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32_t numbers);
-static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers);
 
 /* ================================= initial ==================================
  *
@@ -186,6 +191,26 @@ static double nearest(double change, double length)
         return change - length * whole(change / length + 0.5);
     }
     return change;
+}
+
+/* Tell whether so many numbers lie in the pool and ascend strictly. */
+static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers)
+{
+    if (!range_fits(first, points, numbers)) {
+        return false;
+    }
+    for (int32_t k = 0; k < points - 1; k++) {
+        if (!(pool[first + k] < pool[first + k + 1])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether so many numbers from ``first`` on lie in the pool. */
+static bool range_fits(int32_t first, int32_t count, int32_t numbers)
+{
+    return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
 }
 
 /* ================================ crosstalk =================================
@@ -1879,6 +1904,147 @@ static void forget(Lookup *lookup)
     lookup->interval = 0;
 }
 
+/* ============================== volumetric_fit ==============================
+ *
+ * Whether the tables of a volumetric compensation can be trusted (see ``fit``).
+ */
+
+/* Tell whether a volumetric compensation can be used; one that is not configured is not looked at. */
+static bool volumetric_fits(const double *pool, const VolumetricTable *table, int32_t axes, int32_t numbers)
+{
+    if (!table->configured) {
+        return true;
+    }
+    if (table->cycles < 1 || !members_fit(table, axes) || !chain_fits(table)) {
+        return false;
+    }
+    if (table->constants > 0) {
+        if (table->constants > ERRORS || !range_fits(table->constant, 2 * table->constants, numbers)) {
+            return false;
+        }
+        if (!counts(pool, table->constant, table->constants, ERRORS)) {
+            return false;
+        }
+    }
+    if (!(0 <= table->blocks && table->blocks <= ERRORS)) {
+        return false;
+    }
+    for (int32_t b = 0; b < table->blocks; b++) {
+        if (!block_fits(pool, &table->block[b], numbers)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether members and letters mean axes. */
+static bool members_fit(const VolumetricTable *table, int32_t axes)
+{
+    if (!(0 <= table->members && table->members <= MEMBERS)) {
+        return false;
+    }
+    for (int32_t m = 0; m < table->members; m++) {
+        if (!(0 <= table->member[m] && table->member[m] < axes && 0 <= table->member_letter[m]
+                && table->member_letter[m] < LETTERS)) {
+            return false;
+        }
+    }
+    for (int32_t d = 0; d < LETTERS; d++) {
+        if (!(0 <= table->axis[d] && table->axis[d] < axes)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether the kinematic chain has letters only. */
+static bool chain_fits(const VolumetricTable *table)
+{
+    if (!(LINEAR <= table->chain_length && table->chain_length <= LETTERS && 0 <= table->workpiece_axes
+            && table->workpiece_axes <= table->chain_length)) {
+        return false;
+    }
+    for (int32_t k = 0; k < table->chain_length; k++) {
+        if (!(0 <= table->chain[k] && table->chain[k] < LETTERS)) {
+            return false;
+        }
+    }
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!(0 <= table->column[d] && table->column[d] < LINEAR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether errors over common nodes lie in the pool, with knots that ascend. */
+static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numbers)
+{
+    if (!(1 <= block->errors && block->errors <= ERRORS && 1 <= block->arguments && block->arguments <= LETTERS)) {
+        return false;
+    }
+    if (!(INTERPOLATE_GRID <= block->interpolation && block->interpolation <= INTERPOLATE_PATH && 1 <= block->nodes
+            && block->nodes <= int_floor_div(numbers, block->errors))) {
+        return false;
+    }
+    if (!(range_fits(block->error, block->errors, numbers) && counts(pool, block->error, block->errors, ERRORS))) {
+        return false;
+    }
+    if (!range_fits(block->values, block->nodes * block->errors, numbers)) {
+        return false;
+    }
+    for (int32_t d = 0; d < block->arguments; d++) {
+        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS)) {
+            return false;
+        }
+    }
+    if (block->interpolation == INTERPOLATE_GRID) {
+        return knots_fit(pool, block, numbers);
+    }
+    return block->nodes <= int_floor_div(numbers, block->arguments)
+            && range_fits(block->knots[0], block->nodes * block->arguments, numbers);
+}
+
+/* Tell whether the knots along each argument ascend, and make the nodes. */
+static bool knots_fit(const double *pool, const ErrorBlock *block, int32_t numbers)
+{
+    int32_t nodes = 1;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        int32_t points = block->points[d];
+        if (points < 1 || points > int_floor_div(block->nodes, nodes)
+                || !ascending(pool, block->knots[d], points, numbers)) {
+            return false;
+        }
+        nodes *= points;
+        if (points > 1 && !steps_fit(pool, block, d, numbers)) {
+            return false;
+        }
+    }
+    return nodes == block->nodes;
+}
+
+/* Tell whether every equal step along an argument leads to one of its knots. */
+static bool steps_fit(const double *pool, const ErrorBlock *block, int32_t d, int32_t numbers)
+{
+    int32_t points = block->points[d];
+    if (!(range_fits(block->steps[d], points + 1, numbers) && counts(pool, block->steps[d], points + 1, points))) {
+        return false;
+    }
+    double length = pool[block->knots[d] + points - 1] - pool[block->knots[d]];
+    return block->steps_per_unit[d] >= 0.0 && length * block->steps_per_unit[d] < points;
+}
+
+/* Tell whether so many numbers of the pool are at least 0 and below a limit. */
+static bool counts(const double *pool, int32_t first, int32_t count, int32_t limit)
+{
+    for (int32_t k = 0; k < count; k++) {
+        if (!(0.0 <= pool[first + k] && pool[first + k] < limit)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* =================================== fit ====================================
  *
  * Whether tables can be trusted: every offset lies in the pool, every index means an axis, every divisor is not 0.
@@ -1894,6 +2060,14 @@ bool axcomp_tables_fit(const Tables *tables, int32_t numbers)
     }
     for (int32_t i = 0; i < tables->axis_count; i++) {
         if (!axis_fits(tables->axis[i].pool, &tables->axis[i], tables->axis_count, numbers)) {
+            return false;
+        }
+    }
+    if (!(0 <= tables->volumetrics && tables->volumetrics <= VOLUMETRICS)) {
+        return false;
+    }
+    for (int32_t k = 0; k < tables->volumetrics; k++) {
+        if (!volumetric_fits(tables->pool, &tables->volumetric[k], tables->axis_count, numbers)) {
             return false;
         }
     }
@@ -2054,26 +2228,6 @@ static bool switch_fits(const SwitchTable *table)
 static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
 {
     return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
-}
-
-/* Tell whether so many numbers lie in the pool and ascend strictly. */
-static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers)
-{
-    if (!range_fits(first, points, numbers)) {
-        return false;
-    }
-    for (int32_t k = 0; k < points - 1; k++) {
-        if (!(pool[first + k] < pool[first + k + 1])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Tell whether so many numbers from ``first`` on lie in the pool. */
-static bool range_fits(int32_t first, int32_t count, int32_t numbers)
-{
-    return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
 }
 
 /* Tell whether an index means an axis. */

@@ -1,0 +1,113 @@
+"""Whether the tables of a volumetric compensation can be trusted (see ``fit``)."""
+
+from __future__ import annotations
+
+from .interpolation import ascending, range_fits
+from .record import Vec
+from .volumetric_records import (
+    ERRORS,
+    INTERPOLATE_GRID,
+    INTERPOLATE_PATH,
+    LETTERS,
+    LINEAR,
+    MEMBERS,
+    ErrorBlock,
+    VolumetricTable,
+)
+
+
+def volumetric_fits(pool: Vec, table: VolumetricTable, axes: int, numbers: int) -> bool:
+    """Tell whether a volumetric compensation can be used; one that is not configured is not looked at."""
+    if not table.configured:
+        return True
+    if table.cycles < 1 or not members_fit(table, axes) or not chain_fits(table):
+        return False
+    if table.constants > 0:
+        if table.constants > ERRORS or not range_fits(table.constant, 2 * table.constants, numbers):
+            return False
+        if not counts(pool, table.constant, table.constants, ERRORS):
+            return False
+    if not 0 <= table.blocks <= ERRORS:
+        return False
+    for b in range(table.blocks):
+        if not block_fits(pool, table.block[b], numbers):
+            return False
+    return True
+
+
+def members_fit(table: VolumetricTable, axes: int) -> bool:
+    """Tell whether members and letters mean axes."""
+    if not 0 <= table.members <= MEMBERS:
+        return False
+    for m in range(table.members):
+        if not (0 <= table.member[m] < axes and 0 <= table.member_letter[m] < LETTERS):
+            return False
+    for d in range(LETTERS):
+        if not 0 <= table.axis[d] < axes:
+            return False
+    return True
+
+
+def chain_fits(table: VolumetricTable) -> bool:
+    """Tell whether the kinematic chain has letters only."""
+    if not (LINEAR <= table.chain_length <= LETTERS and 0 <= table.workpiece_axes <= table.chain_length):
+        return False
+    for k in range(table.chain_length):
+        if not 0 <= table.chain[k] < LETTERS:
+            return False
+    for d in range(LINEAR):
+        if not 0 <= table.column[d] < LINEAR:
+            return False
+    return True
+
+
+def block_fits(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
+    """Tell whether errors over common nodes lie in the pool, with knots that ascend."""
+    if not (1 <= block.errors <= ERRORS and 1 <= block.arguments <= LETTERS):
+        return False
+    if not (
+        INTERPOLATE_GRID <= block.interpolation <= INTERPOLATE_PATH and 1 <= block.nodes <= numbers // block.errors
+    ):
+        return False
+    if not (range_fits(block.error, block.errors, numbers) and counts(pool, block.error, block.errors, ERRORS)):
+        return False
+    if not range_fits(block.values, block.nodes * block.errors, numbers):
+        return False
+    for d in range(block.arguments):
+        if not 0 <= block.argument[d] < LETTERS:
+            return False
+    if block.interpolation == INTERPOLATE_GRID:
+        return knots_fit(pool, block, numbers)
+    return block.nodes <= numbers // block.arguments and range_fits(
+        block.knots[0], block.nodes * block.arguments, numbers
+    )
+
+
+def knots_fit(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
+    """Tell whether the knots along each argument ascend, and make the nodes."""
+    nodes = 1
+    for d in range(block.arguments):
+        points = block.points[d]
+        if points < 1 or points > block.nodes // nodes or not ascending(pool, block.knots[d], points, numbers):
+            return False
+        nodes *= points
+        if points > 1 and not steps_fit(pool, block, d, numbers):
+            return False
+    return nodes == block.nodes
+
+
+def steps_fit(pool: Vec, block: ErrorBlock, d: int, numbers: int) -> bool:
+    """Tell whether every equal step along an argument leads to one of its knots."""
+    points = block.points[d]
+    if not (range_fits(block.steps[d], points + 1, numbers) and counts(pool, block.steps[d], points + 1, points)):
+        return False
+    length = pool[block.knots[d] + points - 1] - pool[block.knots[d]]
+    return block.steps_per_unit[d] >= 0.0 and length * block.steps_per_unit[d] < points
+
+
+def counts(pool: Vec, first: int, count: int, limit: int) -> bool:
+    """Tell whether so many numbers of the pool are at least 0 and below a limit."""
+    for k in range(count):
+        if not 0.0 <= pool[first + k] < limit:
+            return False
+    return True
