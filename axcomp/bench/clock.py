@@ -17,11 +17,11 @@ class Sample:
     name : str
         What was measured.
     unit : str
-        ``µs`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory.
+        ``µs`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``×`` for ratios.
     values : tuple of float
         The measurements.
     goal : float or None
-        What it may cost at most, in the same unit; None: no figure is set.
+        What it may cost at most, in the same unit; of a ratio: what it must be at least. None: no figure is set.
     """
 
     name: str

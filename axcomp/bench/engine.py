@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,7 @@ from numpy.typing import NDArray
 from ..engine import Engine
 from ..lists import read_machine, write_machine
 from ..machine import Machine
+from ..native.library import SWITCH, compiled_kernel
 from ..runtime import Runtime
 from .clock import Sample, sample
 from .machines import largest_machine, machine_of
@@ -22,28 +25,54 @@ AXES = (3, 8, 16, 32)
 POINTS = (10, 100, 1000, 10_000)
 
 
-def bench_engine(machine: Machine, name: str, repeats: int) -> Iterator[Sample]:
-    """Measure one machine: a cycle with its inputs set, and a cycle of a whole trajectory."""
-    yield sample(f"cycle of {name}, inputs set", "µs", _Motion(machine), repeats=repeats, each=CYCLES, goal=40.0)
-    engine = Engine(machine)
-    rows = 20_000
-    trajectory: dict[str, NDArray[np.float64]] = {}
-    for variable in engine.variables:
-        if variable.causality == "input" and variable.field in {"setpoint", "velocity", "acceleration"}:
-            trajectory[variable.name] = 200.0 * np.sin(1e-3 * np.arange(rows) + len(trajectory))
-    yield sample(f"cycle of {name} in Engine.run", "µs", lambda: engine.run(trajectory), repeats=repeats, each=rows)
+def bench_engine(
+    machine: Machine, name: str, repeats: int, goal: float, compiled_goal: float | None = None
+) -> Iterator[Sample]:
+    """Measure one machine: a cycle in Python with its inputs set, and a cycle of a whole trajectory."""
+    yield sample(f"cycle of {name}, inputs set", "µs", _Motion(machine), repeats=repeats, each=CYCLES, goal=goal)
+    if compiled_kernel() is not None:
+        yield _trajectory(machine, f"cycle of {name} in Engine.run, compiled", 200_000, repeats, compiled_goal)
+    with _python_kernel():
+        yield _trajectory(machine, f"cycle of {name} in Engine.run, Python", 5_000, repeats)
 
 
 def bench_growth(repeats: int) -> Iterator[Sample]:
     """Measure how a cycle grows with the axes and with the points; every axis has all five kinds."""
     for axes in AXES:
-        yield sample(
-            f"cycle, {axes} axes, 100 points", "µs", _Motion(machine_of(axes, 100)), repeats=repeats, each=CYCLES
-        )
+        yield from _grown(machine_of(axes, 100), f"{axes} axes, 100 points", repeats)
     for points in POINTS:
-        yield sample(
-            f"cycle, 3 axes, {points} points", "µs", _Motion(machine_of(3, points)), repeats=repeats, each=CYCLES
-        )
+        yield from _grown(machine_of(3, points), f"3 axes, {points} points", repeats)
+
+
+def _grown(machine: Machine, name: str, repeats: int) -> Iterator[Sample]:
+    yield sample(f"cycle, {name}", "µs", _Motion(machine), repeats=repeats, each=CYCLES)
+    if compiled_kernel() is not None:
+        yield _trajectory(machine, f"cycle, {name}, compiled", 20_000, repeats)
+
+
+def _trajectory(machine: Machine, name: str, rows: int, repeats: int, goal: float | None = None) -> Sample:
+    """Measure ``Engine.run`` over a trajectory in which every axis moves."""
+    engine = Engine(machine)
+    trajectory: dict[str, NDArray[np.float64]] = {}
+    for variable in engine.variables:
+        if variable.causality == "input" and variable.field in {"setpoint", "velocity", "acceleration"}:
+            trajectory[variable.name] = 200.0 * np.sin(1e-3 * np.arange(rows) + len(trajectory))
+    return sample(name, "µs", lambda: engine.run(trajectory), repeats=repeats, each=rows, goal=goal)
+
+
+@contextmanager
+def _python_kernel() -> Iterator[None]:
+    """Let no engine use a compiled kernel."""
+    before = os.environ.get(SWITCH)
+    os.environ[SWITCH] = "python"
+    compiled_kernel.cache_clear()
+    try:
+        yield
+    finally:
+        os.environ.pop(SWITCH)
+        if before is not None:
+            os.environ[SWITCH] = before
+        compiled_kernel.cache_clear()
 
 
 def bench_lists(repeats: int) -> Iterator[Sample]:

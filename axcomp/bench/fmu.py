@@ -8,25 +8,56 @@ import multiprocessing
 import os
 import shutil
 import time
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import fmpy
 from fmpy.fmi2 import FMU2Slave
 
+from ..fmu.native_package import package_native
+from ..fmu.package import package_axcomp
+from ..native.compiler import PLATFORMS, own_platform
 from .clock import Sample
 
 STEPS = 2000
 
 
-def bench_fmu(path: str | os.PathLike[str], name: str, repeats: int, goal: float | None = None) -> list[Sample]:
-    """Measure an FMU in a child process: the steps, and loading it up to the end of initialization."""
+def bench_fmu(
+    path: str | os.PathLike[str],
+    name: str,
+    repeats: int,
+    *,
+    goal: float | None = None,
+    start_goal: float | None = None,
+) -> tuple[Sample, Sample]:
+    """Measure an FMU in a child process: the steps in µs, and loading it up to the end of initialization in ms."""
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
         steps, starts = pool.submit(_measure, os.fspath(path), repeats).result()
-    return [
-        Sample(f"set + step + get of {name}", "µs", tuple(1e6 * s / STEPS for s in steps), goal),
-        Sample(f"load, instantiate and initialize {name}", "ms", tuple(1e3 * s for s in starts)),
-    ]
+    return (
+        Sample(f"set + step + get of {name} through FMPy", "µs", tuple(1e6 * s / STEPS for s in steps), goal),
+        Sample(f"load, instantiate and initialize {name}", "ms", tuple(1e3 * s for s in starts), start_goal),
+    )
+
+
+def bench_fmus(lists: Path, folder: Path, repeats: int, *, all_platforms: bool) -> Iterator[Sample]:
+    """Build the FMUs of a machine in a folder and measure them side by side.
+
+    ``all_platforms``: the size is that with all platforms.
+    """
+    python = package_axcomp(lists, folder / "python.fmu").path
+    python_step, python_start = bench_fmu(python, "the Python FMU", repeats, goal=70.0)
+    yield from (python_step, python_start)
+    native = package_native(lists, folder / "native.fmu").path
+    native_step, native_start = bench_fmu(native, "the native FMU", repeats, start_goal=10.0)
+    yield from (native_step, native_start)
+    ratios = tuple(python_step.median / step for step in native_step.values)
+    yield Sample("speed of the native FMU against the Python FMU, through FMPy", "×", ratios, 8.0)
+    platforms = tuple(PLATFORMS) if all_platforms else (own_platform(),)
+    sized = package_native(lists, folder / "sized.fmu", platforms=platforms).path
+    text = f"size of the native FMU, sources and {', '.join(platforms)}"
+    yield Sample(text, "MB", (sized.stat().st_size / 1e6,), 1.0)
 
 
 def _measure(path: str, repeats: int) -> tuple[list[float], list[float]]:
@@ -67,8 +98,8 @@ def _steps(slave: FMU2Slave, description: Any) -> float:
             ]
             references = (ctypes.c_uint * len(chosen))(*(variable.valueReference for variable in chosen))
             values = (c_type * len(chosen))()
-            for place, variable in enumerate(chosen):
-                values[place] = variable.start == "true" if kind == "Boolean" else float(variable.start or 0)
+            if kind == "Boolean":
+                values[:] = [variable.start == "true" for variable in chosen]
             groups[causality, kind] = references, values
     set_reals, reals = groups["input", "Real"]
     set_booleans, booleans = groups["input", "Boolean"]

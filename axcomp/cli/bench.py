@@ -1,10 +1,11 @@
-"""``axcomp bench``: what a cycle costs, engine and FMU."""
+"""``axcomp bench``: what a cycle costs, engine and FMUs, compiled and in Python, side by side."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import platform
+import sys
 import tempfile
 from collections.abc import Iterator
 from dataclasses import asdict
@@ -12,9 +13,10 @@ from pathlib import Path
 
 from ..bench.clock import Sample
 from ..bench.engine import bench_engine, bench_growth, bench_lists, bench_memory
-from ..bench.fmu import bench_fmu
-from ..fmu.package import package_axcomp
+from ..bench.fmu import bench_fmus
+from ..fmu.archive import BuildError
 from ..lists import read_machine
+from ..native.compiler import has_cross_compiler
 from ..places import models
 
 EXAMPLE = """example:
@@ -52,22 +54,20 @@ def _do_bench(args: argparse.Namespace) -> int:
 
 def _samples(quick: bool) -> Iterator[Sample]:
     repeats = 3 if quick else 9
-    machine = read_machine(models() / "three_axis").machine
-    yield from bench_engine(machine, "models/three_axis", repeats)
+    three = read_machine(models() / "three_axis").machine
+    yield from bench_engine(three, "models/three_axis", repeats, 40.0, 1.0)
+    yield from bench_engine(read_machine(models() / "five_axis").machine, "models/five_axis", repeats, 250.0)
     with tempfile.TemporaryDirectory() as folder:
-        yield from _fmus(Path(folder), repeats)
+        try:
+            all_platforms = not quick and has_cross_compiler()
+            yield from bench_fmus(models() / "three_axis", Path(folder), repeats, all_platforms=all_platforms)
+        except BuildError as error:
+            print(f"axcomp bench: {error}", file=sys.stderr)
     yield from bench_growth(repeats)
     yield from bench_lists(repeats)
-    yield from bench_memory(machine, 10_000 if quick else 1_000_000)
-
-
-def _fmus(folder: Path, repeats: int) -> Iterator[Sample]:
-    """Build the FMU of the example machine and measure it."""
-    path = folder / "axcomp.fmu"
-    package_axcomp(models() / "three_axis", path)
-    yield from bench_fmu(path, "axcomp.fmu (Python)", repeats, goal=70.0)
+    yield from bench_memory(three, 10_000 if quick else 1_000_000)
 
 
 def _line(one: Sample) -> str:
-    goal = "" if one.goal is None else f"   at most {one.goal:g} {one.unit}"
-    return f"{one.name:58} {one.median:9.2f} {one.unit:2} ({one.low:.2f} … {one.high:.2f}){goal}"
+    goal = "" if one.goal is None else f"   at {'least' if one.unit == '×' else 'most'} {one.goal:g} {one.unit}"
+    return f"{one.name:66} {one.median:9.3f} {one.unit:2} ({one.low:.3f} … {one.high:.3f}){goal}"

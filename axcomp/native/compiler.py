@@ -40,6 +40,11 @@ def own_platform() -> str:
     return {"win32": "win64", "darwin": "darwin64"}.get(sys.platform, "linux64")
 
 
+def has_cross_compiler() -> bool:
+    """Tell whether there is a compiler for every platform."""
+    return importlib.util.find_spec("ziglang") is not None
+
+
 def compiler_of(platform: str) -> list[str]:
     """Return the command of a C compiler for a platform.
 
@@ -48,7 +53,7 @@ def compiler_of(platform: str) -> list[str]:
     CompilerError
         If there is none: the machine's own compiler (``CC``, cc, gcc or clang) serves only the machine itself.
     """
-    if importlib.util.find_spec("ziglang") is not None:
+    if has_cross_compiler():
         return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[platform].zig_target]
     if platform == own_platform():
         if os.environ.get("CC"):

@@ -18,13 +18,12 @@ from axcomp.fmu.native_package import HEADERS, SOURCES, NoCompilerError, package
 from axcomp.fmu.package import package_axcomp
 from axcomp.fmu.variables import Naming
 from axcomp.lists import write_machine
-from axcomp.native.compiler import PLATFORMS, compile_library, compiler_of, own_platform
+from axcomp.native.compiler import PLATFORMS, compile_library, compiler_of, has_cross_compiler, own_platform
 from axcomp.native.image import image_of
 from axcomp.native.places import layout_header, places_source
 from axcomp.places import fmu_sources, models
 
 NATIVE = fmu_sources() / "native"
-HAS_ZIG = importlib.util.find_spec("ziglang") is not None
 
 
 def contents(fmu: Path) -> dict[str, bytes]:
@@ -77,7 +76,7 @@ def test_building_twice_gives_the_same_bytes(native_fmu: Path, lists: Path, tmp_
 @pytest.mark.slow
 @pytest.mark.parametrize("platform", PLATFORMS)
 def test_libraries_do_not_depend_on_where_and_when_they_are_compiled(platform: str, tmp_path: Path) -> None:
-    if platform != own_platform() and not HAS_ZIG:
+    if platform != own_platform() and not has_cross_compiler():
         pytest.skip("there is no cross compiler: pip install axcomp[cross]")
     libraries = []
     for folder in (tmp_path / "one", tmp_path / "two, elsewhere"):
@@ -93,7 +92,7 @@ def test_libraries_do_not_depend_on_where_and_when_they_are_compiled(platform: s
 
 @pytest.mark.slow
 def test_three_platforms_and_the_sources_have_a_megabyte_at_most(tmp_path: Path) -> None:
-    if not HAS_ZIG:
+    if not has_cross_compiler():
         pytest.skip("there is no cross compiler: pip install axcomp[cross]")
     one = package_native(models() / "three_axis", tmp_path / "one.fmu").path
     built = package_native(models() / "three_axis", tmp_path / "three.fmu", platforms=tuple(PLATFORMS)).path
