@@ -1,20 +1,30 @@
-"""``axcomp check``: what is wrong with the lists of a machine."""
+"""``axcomp check``: what is wrong with the lists of a machine, and whether their tables are right."""
 
 from __future__ import annotations
 
 import argparse
 import json
+import sys
 from dataclasses import asdict
 from typing import Any
 
+from ..judgement import Judgement
 from ..lists import Reading, Severity, read_machine
+from .judgement_options import add_judgement_options, evidence_of, judgement_of
 
 STATUS_MAX = 100
 """Largest exit status: larger ones are not the program's to use."""
 
 _EXAMPLE = """\
+Tables that can be read are judged too: outliers, seams of round axes, volumetric corrections against s_limit; by a
+measurement taken without the compensation the sign, by a feed what a table asks of the drives, by an input file whether
+the tables hold all positions in use. These findings are warnings and infos: they do not change the exit status.
+
 example:
   axcomp check models/three_axis
+  axcomp check models/three_axis --measurement x.rtl --axis X
+  axcomp check models/three_axis --feed 30000 --feed Z=10000 --max-acceleration 5m/s2
+  axcomp check models/three_axis --input models/three_axis/input.csv --format json
 """
 
 
@@ -32,19 +42,25 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "path", metavar="PATH", help="a hochlauf.lis, a folder with one or with achskw*.lis, or a single achskw*.lis"
     )
     parser.add_argument("--format", choices=("text", "json"), default="text", help="what to print (default: text)")
+    add_judgement_options(parser)
     parser.set_defaults(do=_do_check)
 
 
 def _do_check(options: argparse.Namespace) -> int:
     reading = read_machine(options.path)
+    evidence = evidence_of(options, reading.machine)
+    judgement = judgement_of(options, reading.machine, evidence)
+    reading = Reading(reading.machine, (*reading.findings, *judgement.findings))
     counts = {severity: sum(f.severity is severity for f in reading.findings) for severity in Severity}
     if options.format == "json":
-        print(json.dumps(_as_json(reading, counts), indent=2, ensure_ascii=False))
+        print(json.dumps(_as_json(reading, counts, judgement), indent=2, ensure_ascii=False))
     else:
         for finding in reading.findings:
             print(finding)
         print(_summary(reading, counts))
-    return min(counts[Severity.ERROR], STATUS_MAX)
+    for fault in evidence.faults:
+        print(f"axcomp check: {fault}", file=sys.stderr)
+    return min(counts[Severity.ERROR] + len(evidence.faults), STATUS_MAX)
 
 
 def _summary(reading: Reading, counts: dict[Severity, int]) -> str:
@@ -59,7 +75,7 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun if count == 1 else plural}"
 
 
-def _as_json(reading: Reading, counts: dict[Severity, int]) -> dict[str, Any]:
+def _as_json(reading: Reading, counts: dict[Severity, int], judgement: Judgement) -> dict[str, Any]:
     return {
         "findings": [asdict(finding) | {"severity": finding.severity.value} for finding in reading.findings],
         "counts": {severity.value: count for severity, count in counts.items()},
@@ -72,4 +88,5 @@ def _as_json(reading: Reading, counts: dict[Severity, int]) -> dict[str, Any]:
             }
             for axis in reading.machine.axes
         ],
+        "judgement": judgement.to_dict(),
     }

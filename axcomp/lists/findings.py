@@ -141,6 +141,20 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-SINGULAR": (_ERROR, "The directions of X, Y and Z lie in one plane"),
     "AXC-LIMIT": (_ERROR, "An axis to be compensated has no s_limit (P-AXIS-00525)"),
     "AXC-NOT-MODELLED": (_WARNING, "The controller has this function, the model has not"),
+    # Judgement of tables that can be read
+    "AXC-SIGN": (_INFO, "A table makes a measured error smaller"),
+    "AXC-SIGN-INVERTED": (_WARNING, "A table would make a measured error smaller with the opposite sign"),
+    "AXC-SIGN-SWAPPED": (_WARNING, "A table would make a measured error smaller with its directions interchanged"),
+    "AXC-SIGN-NO-HELP": (_WARNING, "A table does not make a measured error smaller, nor would its opposite"),
+    "AXC-OUTLIER": (_WARNING, "A single value is far off its neighbours"),
+    "AXC-SEAM": (_WARNING, "The correction steps, or changes steeply, where a round axis begins again"),
+    "AXC-COVERAGE": (_WARNING, "Positions or accelerations in use lie outside a table"),
+    "AXC-DYNAMICS": (_INFO, "What a table asks of a drive at a feed"),
+    "AXC-DYNAMICS-VELOCITY": (_WARNING, "Feed and the velocity that a table adds are above the axis' limit"),
+    "AXC-DYNAMICS-KINK": (_WARNING, "A kink of a table asks for more acceleration than the axis has"),
+    "AXC-DYNAMICS-JUMP": (_WARNING, "Switching or reversing a table asks for more than the axis has"),
+    "AXC-LIMIT-EXCEEDED": (_WARNING, "A volumetric correction is larger than s_limit (P-AXIS-00525)"),
+    "AXC-LIMIT-NEAR": (_INFO, "A volumetric correction is close to s_limit (P-AXIS-00525)"),
 }
 """Every code a finding can have: its severity and what it means. Numbers are the vendor's, ``AXC-…`` are our own."""
 

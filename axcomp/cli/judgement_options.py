@@ -1,0 +1,149 @@
+"""The options that tables are judged by, for ``axcomp check`` and ``axcomp report``."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..judgement import Demand, Judgement, judge, sign_of
+from ..judgement.dynamics import CYCLE_TIME
+from ..judgement.trajectory import setpoints
+from ..machine import Machine
+from ..measurement.columns import MeasurementError
+from ..measurement.positioning import Positioning, read_positioning
+from ..sweep.trajectory import InputFile, read_input
+
+SPEEDS = {"mm/min": 1 / 60, "m/min": 1e3 / 60, "mm/s": 1.0, "m/s": 1e3}
+SPEEDS |= {"deg/min": 1 / 60, "°/min": 1 / 60, "deg/s": 1.0, "°/s": 1.0, "rpm": 6.0}
+"""Units of velocities, in mm/s or °/s."""
+ACCELERATIONS = {"mm/s2": 1.0, "m/s2": 1e3, "deg/s2": 1.0, "°/s2": 1.0}
+"""Units of accelerations, in mm/s² or °/s²."""
+
+_QUANTITY = re.compile(r"(?:([^=]+)=)?\s*(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)\s*(\D.*)?\Z")
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What there is beside the lists to judge them by.
+
+    Attributes
+    ----------
+    measurements : tuple of (Positioning, str, str)
+        With the axis that deviates and the one that was moved; only those whose table there is.
+    readings : tuple of Positioning
+        All measurements that could be read.
+    demand : Demand or None
+    input : InputFile or None
+    faults : tuple of str
+        A sentence for each option that cannot be followed.
+    """
+
+    measurements: tuple[tuple[Positioning, str, str], ...] = ()
+    readings: tuple[Positioning, ...] = ()
+    demand: Demand | None = None
+    input: InputFile | None = None
+    faults: tuple[str, ...] = ()
+
+
+def add_judgement_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
+    group = parser.add_argument_group("judgement of the tables")
+
+    def add(name: str, metavar: str, meaning: str) -> None:
+        group.add_argument(name, action="append", default=[], metavar=metavar, help=meaning)
+
+    add("--measurement", "FILE", "taken without the compensation, as axcomp measure takes it; repeatable")
+    group.add_argument("--axis", metavar="NAME", help="axis that deviates, where the measurement does not say")
+    group.add_argument("--over", metavar="NAME", help="axis that was moved, for a cross table (default: the same)")
+    add("--feed", "[AXIS=]VALUE", "of the axes, mm/min or °/min unless with a unit: 500mm/s; repeatable")
+    add("--max-velocity", "[AXIS=]VALUE", "of the axes, in the same units")
+    add("--max-acceleration", "[AXIS=]VALUE", "of the axes, mm/s² or °/s² unless with a unit: 5m/s2")
+    group.add_argument(
+        "--cycle-time", type=float, default=CYCLE_TIME, metavar="s", help=f"of the controller ({CYCLE_TIME:g})"
+    )
+    group.add_argument("--input", type=Path, metavar="FILE.csv", help="setpoints in use: columns X.setpoint and so on")
+    group.add_argument("--tool-length", type=float, default=0.0, metavar="mm", help="for volumetric corrections (0)")
+
+
+def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
+    """Return what the options give; what is wrong with one of them does not hide the others."""
+    faults: list[str] = []
+    measurements = []
+    readings = []
+    for file in options.measurement:
+        try:
+            measurement = read_positioning(file, of_another_axis=options.over is not None)
+            readings.append(measurement)
+            axis = options.axis or measurement.axis or _only_axis(machine, file)
+            over = options.over or axis
+            sign_of(machine, measurement, axis, over)
+            measurements.append((measurement, axis, over))
+        except (MeasurementError, ValueError) as error:
+            faults.append(str(error))
+    demand = None
+    try:
+        demand = _demand(options, machine)
+    except ValueError as error:
+        faults.append(str(error))
+    given = None
+    try:
+        if options.input is not None:
+            found = read_input(options.input)
+            setpoints(found.columns, machine)
+            given = found
+    except ValueError as error:
+        faults.append(str(error))
+    return Evidence(tuple(measurements), tuple(readings), demand, given, tuple(faults))
+
+
+def judgement_of(options: argparse.Namespace, machine: Machine, evidence: Evidence) -> Judgement:
+    """Judge the machine by all there is."""
+    return judge(
+        machine,
+        options.path,
+        measurements=evidence.measurements,
+        demand=evidence.demand,
+        trajectory=None if evidence.input is None else evidence.input.columns,
+        tool_length=options.tool_length,
+    )
+
+
+def _only_axis(machine: Machine, file: str) -> str:
+    """Return the axis that is meant where the measurement does not say: the only one with a leadscrew table."""
+    names = [axis.name for axis in machine.axes if axis.leadscrew is not None]
+    if len(names) != 1:
+        raise ValueError(f"{file}: It does not say which axis it is of; --axis NAME does.")
+    return names[0]
+
+
+def _demand(options: argparse.Namespace, machine: Machine) -> Demand | None:
+    if not (options.feed or options.max_velocity or options.max_acceleration):
+        return None
+    if not options.cycle_time > 0.0:
+        raise ValueError(f"--cycle-time: {options.cycle_time:g} s is no cycle time")
+    return Demand(
+        _by_axis("--feed", options.feed, SPEEDS, "mm/min", machine),
+        _by_axis("--max-velocity", options.max_velocity, SPEEDS, "mm/min", machine),
+        _by_axis("--max-acceleration", options.max_acceleration, ACCELERATIONS, "mm/s2", machine),
+        options.cycle_time,
+    )
+
+
+def _by_axis(
+    option: str, words: Sequence[str], units: dict[str, float], default: str, machine: Machine
+) -> dict[str, float]:
+    """Return values by axis, "" for all others."""
+    found = {}
+    for word in words:
+        match = _QUANTITY.match(word.strip())
+        axis, unit = (match[1] or "", (match[3] or default).strip().replace("²", "2")) if match else ("", "")
+        if match is None or unit not in units:
+            raise ValueError(f"{option}: “{word}” is no [AXIS=]VALUE in {', '.join(units)}")
+        if axis and axis not in {one.name for one in machine.axes}:
+            names = ", ".join(one.name for one in machine.axes) or "none"
+            raise ValueError(f"{option}: there is no axis {axis!r}; the machine has {names}")
+        found[axis] = float(match[2]) * units[unit]
+    return found
