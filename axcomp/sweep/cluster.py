@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import logging
 import os
+import uuid
 from collections.abc import Callable, Iterator
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import dask
-from distributed import Client, Future, LocalCluster, as_completed
+from distributed import Client, Future, LocalCluster, WorkerPlugin, as_completed, get_worker
 
 T = TypeVar("T")
 
@@ -70,6 +71,17 @@ def completed(
                 yield from _completed(client, task, common, items)
 
 
+class _Common(WorkerPlugin):
+    """Keeps what all tasks have in common on every worker, those included that come later in place of others."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+
+
+def _with_common(task: Callable[[Any, T], Any], name: str, item: T) -> Any:
+    return task(cast("_Common", get_worker().plugins[name]).value, item)
+
+
 def _connected(scheduler: str) -> Client:
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
@@ -86,14 +98,15 @@ def _completed(
     client: Client, task: Callable[[Any, T], Any], common: Any, items: list[T]
 ) -> Iterator[tuple[T, Any, BaseException | None]]:
     """Keep as many tasks under way as there are threads: a worker that dies then takes one task with it."""
-    sent = client.scatter(common, broadcast=True, hash=False)
+    name = f"axcomp-{uuid.uuid4()}"
+    client.register_plugin(_Common(common), name=name)
     waiting = iter(items)
     under_way: dict[Future[Any], T] = {}
     ended = as_completed()
 
     def submit_next() -> bool:
         for item in waiting:
-            future = client.submit(task, sent, item, pure=False)
+            future = client.submit(_with_common, task, name, item, pure=False)
             under_way[future] = item
             ended.add(future)
             return True
@@ -103,8 +116,12 @@ def _completed(
         pass
     for future in ended:
         item = under_way.pop(future)
-        error = future.exception()
-        result = None if error is not None else future.result()
+        result, error = None, None
+        try:
+            result = future.result()
+        except Exception as raised:
+            error = raised
         submit_next()
         yield item, result, error
         future.release()
+    client.unregister_worker_plugin(name)
