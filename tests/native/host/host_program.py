@@ -25,6 +25,7 @@ LOADER = ROOT / "fmu_src" / "native_host"
 HOST = Path(__file__).parent
 OK, WARNING, DISCARD, ERROR = 0, 1, 2, 3
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer", "-g")
+WINE = shutil.which("wine64") or "/usr/lib/wine/wine64"  # where Debian's package has it
 OPTIONS = ("-std=c99", "-ffp-contract=off", "-fvisibility=hidden")
 
 
@@ -51,9 +52,12 @@ WAYS = {
     "gcc": Way(("gcc",)),
     "gcc-avx2": Way(("gcc",), ("-O3", "-mavx2", "-mfma")),
     "sanitized": Way(("gcc",), ("-O1", *SANITIZERS), environment={"ASAN_OPTIONS": "detect_leaks=1"}),
+    # A flag that is neither 0 nor 1 is a mistake for the sanitizer, but does no harm.
+    "forged": Way(("gcc",), ("-O1", *SANITIZERS, "-fno-sanitize=bool")),
+    "threads": Way(("gcc",), ("-O1", "-g", "-fsanitize=thread")),
     "valgrind": Way(("gcc",), runner=("valgrind", "-q", "--error-exitcode=99", "--leak-check=full")),
     "zig": Way(_zig("x86_64-linux-gnu.2.17")),
-    "win64": Way(_zig("x86_64-windows-gnu"), runner=("wine64",), suffix=".dll", environment={"WINEDEBUG": "-all"}),
+    "win64": Way(_zig("x86_64-windows-gnu"), runner=(WINE,), suffix=".dll", environment={"WINEDEBUG": "-all"}),
     "aarch64": Way((*_zig("aarch64-linux-musl"), "-static"), runner=("qemu-aarch64-static",), linked=True),
 }
 
@@ -79,7 +83,7 @@ class Program:
         path = folder / "script.txt"
         path.write_bytes("".join(f"{line}\n" for line in script).encode())
         environment = {**os.environ, **self.way.environment}
-        if self.way.runner == ("wine64",):
+        if self.way.runner == (WINE,):
             environment["WINEPREFIX"] = str(self.host.parent / "wine")
         result = subprocess.run(
             [*self.way.runner, str(self.host), str(self.library), str(path)],

@@ -181,7 +181,9 @@ class Walk:
             value, word = self.source.random() < 0.7, ""
             word = self.source.choice(["1", "-7"]) if value else "0"
         else:
-            value = self.source.choice([self.source.uniform(-600, 600)] * 20 + [math.nan, math.inf, 1e308, -0.0, 5e-324])
+            value = self.source.choice(
+                [self.source.uniform(-600, 600)] * 20 + [math.nan, math.inf, 1e308, -0.0, 5e-324]
+            )
             word = bits(value)
         legal = it.phase in ("instantiated", "init", "step")
         self.say(f"set {slot} {LETTERS[type(declared.start)]} {reference} {word}", OK if legal else ERROR)
@@ -324,5 +326,17 @@ def test_the_walk_visits_every_phase_and_both_outcomes(resources: Path) -> None:
     walk = Walk(0, resources)
     walk.go(6000)
     calls = {(line.split()[0], status) for line, (status, _) in zip(walk.script, walk.expected, strict=True)}
-    for call in ("setup", "enter", "exit", "terminate", "reset", "step", "get", "set", "save", "restore", "deserialize"):
+    for call in (
+        "setup",
+        "enter",
+        "exit",
+        "terminate",
+        "reset",
+        "step",
+        "get",
+        "set",
+        "save",
+        "restore",
+        "deserialize",
+    ):
         assert {(call, OK), (call, ERROR)} <= calls, call
