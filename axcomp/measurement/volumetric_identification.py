@@ -9,11 +9,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from ..tcp_model import TcpModel
 from ..volumetric import ERRORS, ErrorTable, Volumetric
 from .creation import CannotCreateError
 from .motion import Array
 from .volumetric_basis import FULL_TURN, Redundancy, Selection, Sought, sought_errors
-from .volumetric_model import TcpDeviations, TcpModel
+from .volumetric_model import TcpDeviations
 
 NODES_MAX = 11
 """Nodes of a component error unless more or fewer are asked for."""

@@ -6,15 +6,11 @@ What is drawn comes from the kernel's interpolation and model, so it is what the
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from ..compile import compile_tables
-from ..kernel.record import zeros
-from ..kernel.volumetric_errors import errors_at
-from ..kernel.volumetric_model import FRAME, carry_to_workpiece
-from ..machine import Axis, Machine
+from ..machine import Machine
+from ..tcp_model import TcpModel
 from ..volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric, is_angle
 from .bars import Bars
 from .content import Content, Subject
@@ -32,37 +28,6 @@ TURNED = 73
 """Places of a rotary axis at which the TCP error is taken."""
 
 
-class ErrorModel:
-    """A volumetric compensation of a machine, evaluated.
-
-    Parameters
-    ----------
-    machine : Machine
-        With the axes of the compensation.
-    volumetric : Volumetric
-        One of its compensations.
-    """
-
-    def __init__(self, machine: Machine, volumetric: Volumetric) -> None:
-        # What else there is would only cost time.
-        axes = tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes)
-        tables = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
-        self._pool, self._table = tables.pool, tables.volumetric[0]
-
-    def errors(self, position: Sequence[float]) -> list[float]:
-        """Return the 72 errors (mm, rad) in the order of ``ERRORS`` at a position, shape (6,), mm and °."""
-        found = zeros(len(ERRORS))
-        errors_at(self._pool, self._table, list(position), found)
-        return found
-
-    def tcp_error(self, position: Sequence[float], tool_length: float = 0.0) -> Array:
-        """Return actual − nominal place of the tool tip on the workpiece, shape (3,), mm, at a position, shape (6,)."""
-        nominal, actual = zeros(FRAME), zeros(FRAME)
-        carry_to_workpiece(self._table, list(position), tool_length, self.errors(position), nominal, actual)
-        error: Array = np.array(actual[:3]) - np.array(nominal[:3])
-        return error
-
-
 def volumetric_contents(machine: Machine, axis: str | None = None, tool_length: float = 0.0) -> list[Content]:
     """Return what there is to show of the volumetric compensations.
 
@@ -78,7 +43,7 @@ def volumetric_contents(machine: Machine, axis: str | None = None, tool_length: 
     found: list[Content] = []
     for volumetric in machine.volumetric:
         names = _names(machine, volumetric)
-        model = ErrorModel(machine, volumetric)
+        model = TcpModel(volumetric)
         for letter in LETTERS:
             if letter in names and axis in {None, names[letter]}:
                 found += _errors_of_axis(volumetric, model, letter, names)
@@ -108,7 +73,7 @@ def work_volume(machine: Machine, volumetric: Volumetric) -> dict[str, tuple[flo
     return {letter: (min(positions), max(positions)) for letter, positions in found.items()}
 
 
-def tcp_field(machine: Machine, volumetric: Volumetric, model: ErrorModel, tool_length: float = 0.0) -> Field:
+def tcp_field(machine: Machine, volumetric: Volumetric, model: TcpModel, tool_length: float = 0.0) -> Field:
     """Return the TCP error at a grid of places in the work volume, the rotary axes at 0 or as near as they get."""
     ranges = work_volume(machine, volumetric)
     sides = []
@@ -117,13 +82,14 @@ def tcp_field(machine: Machine, volumetric: Volumetric, model: ErrorModel, tool_
         sides.append(np.linspace(low, high, ARROWS) if high > low else np.array([low]))
     grid = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, len(LINEAR))
     rotary = [float(np.clip(0.0, *ranges.get(letter, (0.0, 0.0)))) for letter in ROTARY]
-    errors = np.array([model.tcp_error([*place, *rotary], tool_length) for place in grid.tolist()])
+    positions = np.column_stack([grid, np.tile(rotary, (len(grid), 1))])
+    errors = model.errors_and_deviations(positions, tool_length)[1]
     subject = Subject(str(volumetric.index), "volumetric", "TCP error")
     return Field(subject, grid, MICRO[False][0] * errors, _tool(tool_length))
 
 
 def tcp_curves(
-    machine: Machine, volumetric: Volumetric, model: ErrorModel, letter: str, tool_length: float = 0.0
+    machine: Machine, volumetric: Volumetric, model: TcpModel, letter: str, tool_length: float = 0.0
 ) -> Curves:
     """Return the TCP error while a rotary axis turns, the linear axes in the middle of the work volume."""
     ranges = work_volume(machine, volumetric)
@@ -131,11 +97,9 @@ def tcp_curves(
     place = [0.5 * sum(ranges.get(linear, (0.0, 0.0))) for linear in LINEAR]
     place += [float(np.clip(0.0, *ranges.get(rotary, (0.0, 0.0)))) for rotary in ROTARY]
     turned = np.linspace(*ranges[letter], TURNED)
-    errors = []
-    for position in turned.tolist():
-        place[LETTERS.index(letter)] = position
-        errors.append(model.tcp_error(place, tool_length))
-    values = MICRO[False][0] * np.array(errors)
+    positions = np.tile(place, (len(turned), 1))
+    positions[:, LETTERS.index(letter)] = turned
+    values = MICRO[False][0] * model.errors_and_deviations(positions, tool_length)[1]
     where = ", ".join(f"{names.get(linear, linear)} = {place[d]:g}" for d, linear in enumerate(LINEAR))
     return Curves(
         Subject(str(volumetric.index), "volumetric", f"TCP error over {names[letter]}"),
@@ -154,7 +118,7 @@ def _names(machine: Machine, volumetric: Volumetric) -> dict[str, str]:
     return {letter: machine.axes[machine.index_of(number)].name for letter, number in volumetric.axes}
 
 
-def _errors_of_axis(volumetric: Volumetric, model: ErrorModel, letter: str, names: dict[str, str]) -> list[Content]:
+def _errors_of_axis(volumetric: Volumetric, model: TcpModel, letter: str, names: dict[str, str]) -> list[Content]:
     """Return the errors of one axis: curves by argument and unit, maps for those over several axes."""
     found: list[Content] = []
     tables = [table for table in volumetric.errors if table.name[-1] == letter and any(table.values)]
@@ -173,7 +137,7 @@ def _position(letter: str, names: dict[str, str]) -> Quantity:
 
 def _curves(
     volumetric: Volumetric,
-    model: ErrorModel,
+    model: TcpModel,
     letter: str,
     argument: str,
     tables: Sequence[ErrorTable],
@@ -184,12 +148,9 @@ def _curves(
     lines = []
     for table in tables:
         x = np.unique([node[0] for node in table.nodes])
-        place = [0.0] * len(LETTERS)
-        values = []
-        for position in x.tolist():
-            place[LETTERS.index(argument)] = position
-            values.append(model.errors(place)[ERRORS.index(table.name)])
-        lines.append(Line(table.name, x, factor * np.array(values)))
+        places = np.zeros((len(x), len(LETTERS)))
+        places[:, LETTERS.index(argument)] = x
+        lines.append(Line(table.name, x, factor * model.known_errors(places)[:, ERRORS.index(table.name)]))
     over = "" if argument == letter else f" over {argument}"
     what = "angular errors" if angular else "linear errors"
     return Curves(
@@ -201,7 +162,7 @@ def _curves(
     )
 
 
-def _map(volumetric: Volumetric, model: ErrorModel, table: ErrorTable, names: dict[str, str]) -> Map:
+def _map(volumetric: Volumetric, model: TcpModel, table: ErrorTable, names: dict[str, str]) -> Map:
     """Return one error over its first two axes, the others in the middle of their ranges."""
     factor, unit = MICRO[is_angle(table.name)]
     first, second, *others = list(table.arguments)
@@ -209,15 +170,13 @@ def _map(volumetric: Volumetric, model: ErrorModel, table: ErrorTable, names: di
     middle = {argument: 0.5 * (min(columns[argument]) + max(columns[argument])) for argument in others}
 
     def at(across: Array, up: Array) -> Array:
-        place = [0.0] * len(LETTERS)
+        places = np.zeros((len(up), len(across), len(LETTERS)))
         for argument, position in middle.items():
-            place[LETTERS.index(argument)] = position
-        values = np.empty((len(up), len(across)))
-        for j, y in enumerate(up.tolist()):
-            for i, x in enumerate(across.tolist()):
-                place[LETTERS.index(first)], place[LETTERS.index(second)] = x, y
-                values[j, i] = model.errors(place)[ERRORS.index(table.name)]
-        return factor * values[np.newaxis]
+            places[..., LETTERS.index(argument)] = position
+        places[..., LETTERS.index(first)] = across
+        places[..., LETTERS.index(second)] = up[:, np.newaxis]
+        values = model.known_errors(places.reshape(-1, len(LETTERS)))[:, ERRORS.index(table.name)]
+        return factor * values.reshape(1, len(up), len(across))
 
     across, up = (np.linspace(min(columns[a]), max(columns[a]), SAMPLES) for a in (first, second))
     at_middle = ", ".join(f"{names.get(argument, argument)} = {position:g}" for argument, position in middle.items())

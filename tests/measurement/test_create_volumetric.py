@@ -23,9 +23,10 @@ from axcomp.measurement.columns import MeasurementError
 from axcomp.measurement.create_volumetric import create_volumetric
 from axcomp.measurement.creation import LEFT_OUT, MEASURED, PREDICTED
 from axcomp.measurement.simulated import load_plant
-from axcomp.measurement.volumetric_model import TcpDeviations, TcpModel
+from axcomp.measurement.volumetric_model import TcpDeviations
 from axcomp.measurement.volumetric_target import VolumetricTarget
 from axcomp.places import models
+from axcomp.tcp_model import TcpModel
 from axcomp.volumetric import ErrorTable
 
 FIVE_AXIS = models() / "five_axis"

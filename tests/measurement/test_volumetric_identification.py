@@ -9,7 +9,8 @@ from axcomp.measurement.columns import MeasurementError
 from axcomp.measurement.creation import CannotCreateError
 from axcomp.measurement.volumetric_basis import Sought, sought_errors
 from axcomp.measurement.volumetric_identification import Identifier, identify
-from axcomp.measurement.volumetric_model import TcpDeviations, TcpModel, read_tcp_deviations
+from axcomp.measurement.volumetric_model import TcpDeviations, read_tcp_deviations
+from axcomp.tcp_model import TcpModel
 from axcomp.volumetric import ErrorTable, Volumetric, is_angle
 
 AXES = (("X", 1), ("Y", 2), ("Z", 3))

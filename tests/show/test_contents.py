@@ -16,7 +16,8 @@ from axcomp.show.contents import contents_of
 from axcomp.show.curves import Curves, Line
 from axcomp.show.field import Field
 from axcomp.show.maps import Map
-from axcomp.show.volume import ErrorModel, volumetric_contents
+from axcomp.show.volume import volumetric_contents
+from axcomp.tcp_model import TcpModel
 from axcomp.volumetric import Volumetric
 
 
@@ -151,17 +152,18 @@ def test_errors_of_one_axis_only_on_request() -> None:
 
 def test_the_tcp_error_is_that_of_the_first_order_formula() -> None:
     """Chain YXZ, all axes on the tool's side (semantics §10)."""
-    model = ErrorModel(MEASURED, VOLUMETRIC)
+    model = TcpModel(VOLUMETRIC)
     for x, y, z in ((-80.0, 30.0, 150.0), (0.0, 0.0, 0.0), (60.0, -45.0, 20.0)):
         exx = np.interp(x, [-100, 0, 100], [-0.01, 0.0, 0.02])
         eyx = np.interp(x, [-100, 100], [0.003, 0.001])
         ezz, ezy = np.interp(z, [0, 200], [0, 0.004]), 1e-6 * x + 2e-6 * y
         expected = (exx - 30e-6 * y, eyx, ezz + ezy)
-        assert np.allclose(model.tcp_error([x, y, z, 0.0, 0.0, 0.0]), expected, atol=1e-7)
+        assert np.allclose(model.errors_and_deviations(np.array([[x, y, z, 0.0, 0.0, 0.0]]))[1], expected, atol=1e-7)
     # A tool of 100 mm along Y swings with the yaw of X: 30 µrad · 100 mm.
-    long = ErrorModel(MEASURED, replace(VOLUMETRIC, tool_orientation=(0.0, 1.0, 0.0)))
-    swing = long.tcp_error([100.0, 0, 0, 0, 0, 0], 100.0) - long.tcp_error([100.0, 0, 0, 0, 0, 0])
-    assert swing[0] == pytest.approx(-100.0 * 30e-6, abs=1e-7)
+    long = TcpModel(replace(VOLUMETRIC, tool_orientation=(0.0, 1.0, 0.0)))
+    place = np.array([[100.0, 0, 0, 0, 0, 0]])
+    swing = long.errors_and_deviations(place, 100.0)[1] - long.errors_and_deviations(place)[1]
+    assert swing[0, 0] == pytest.approx(-100.0 * 30e-6, abs=1e-7)
 
 
 def test_the_field_covers_the_work_volume_that_was_measured() -> None:
