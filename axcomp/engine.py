@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -20,10 +22,14 @@ from .lists import Finding, read_machine
 from .machine import Machine
 from .native.library import compiled_kernel
 from .native.runner import run_compiled
+from .nc import NcControl, NcError
 from .runtime import Runtime
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+COMMAND = "command"
+"""Column of a trajectory that has NC commands."""
 
 CHUNK = 4096
 """Cycles whose outputs are kept as Python objects before they go into arrays."""
@@ -60,11 +66,14 @@ class Result:
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write time and all variables as CSV that reads back to the same bits."""
-        names = ["time", *self.values]
+        Path(path).write_text("".join(f"{line}\n" for line in self.csv_lines()), encoding="utf-8")
+
+    def csv_lines(self) -> Iterator[str]:
+        """Yield the lines that ``to_csv`` writes."""
         columns = [self.time.tolist(), *(column.tolist() for column in self.values.values())]
-        lines = [",".join(names)]
-        lines += [",".join(repr(float(value)) for value in row) for row in zip(*columns, strict=True)]
-        Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
+        yield ",".join(["time", *self.values])
+        for row in zip(*columns, strict=True):
+            yield ",".join(repr(float(value)) for value in row)
 
 
 class Engine:
@@ -86,6 +95,8 @@ class Engine:
         What the reader had to say; empty for a Machine.
     variables : tuple of Variable
         Those of the FMU that are inputs or outputs of a cycle.
+    nc : NcControl
+        Carries out NC commands, and reads and writes the variables ``V.G.VOLCOMP[i]…``.
 
     Raises
     ------
@@ -97,11 +108,14 @@ class Engine:
         self, machine: Machine | str | os.PathLike[str], cycle_time: float = CYCLE_TIME, naming: Naming = "structured"
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
+        lists = None
         if not isinstance(machine, Machine):
+            lists = machine
             reading = read_machine(machine)
             machine, self.findings = reading.machine, tuple(reading.findings)
         self.machine = machine
         self.runtime = Runtime(machine, cycle_time)
+        self.nc = NcControl(self.runtime, lists)
         self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._record(v) is not None)
         self._by_name = by_name(self.variables)
         self._outputs = with_causality(self.variables, "output")
@@ -121,11 +135,21 @@ class Engine:
         """Return all outputs of the last cycle by name."""
         return {variable.name: getattr(self._record(variable), variable.field) for variable in self._outputs}
 
-    def step(self, values: Mapping[str, Value] | None = None) -> dict[str, Value]:
-        """Set inputs, run one cycle, and return its outputs by name."""
-        self.set(values or {})
-        self.runtime.cycle()
+    def step(self, values: Mapping[str, Value] | None = None, command: str = "") -> dict[str, Value]:
+        """Set inputs, carry out an NC command, run one cycle, and return its outputs by name.
+
+        NcError for a command that cannot be carried out.
+        """
+        self._cycle(values or {}, command)
         return self.get()
+
+    def _cycle(self, values: Mapping[str, Value], command: str) -> tuple[str, ...]:
+        """Do what ``step`` does; return what the command has to say."""
+        self.set(values)
+        notices = self.nc.execute(command)
+        self.runtime.cycle()
+        self.nc.after_cycle()
+        return notices
 
     def run(self, trajectory: Mapping[str, ArrayLike]) -> Result:
         """Run one cycle for each row of a trajectory: the same bits as as many calls of ``step``.
@@ -135,24 +159,48 @@ class Engine:
         Parameters
         ----------
         trajectory : mapping of str to array_like, shape (n,)
-            Inputs by name; a ``time`` column is ignored, inputs that are not named are held.
+            Inputs by name; a ``time`` column is ignored, inputs that are not named are held. A column ``command`` has
+            NC commands, "" in most rows: they act in the cycle of their row.
 
         Raises
         ------
         KeyError
             For a name that is no input.
         ValueError
-            If the columns differ in length.
+            If the columns differ in length, or a command is none; an UPDATE can be refused midway.
         """
-        inputs = {name: column for name, column in trajectory.items() if name != "time"}
-        cycles = _length(inputs)
-        given = [self._input(name) for name in inputs]
-        columns = [_column(variable, inputs[variable.name]) for variable in given]
+        cycles = _length({name: column for name, column in trajectory.items() if name != "time"})
+        given = [self._input(name) for name in trajectory if name not in ("time", COMMAND)]
+        columns = [_column(variable, trajectory[variable.name]) for variable in given]
+        if not given:
+            given = [next(variable for variable in self.variables if variable.causality == "input")]
+            columns = [np.full(cycles, getattr(self._record(given[0]), given[0].field))]
+        blocks = [str(block) for block in np.asarray(trajectory.get(COMMAND, [])).tolist()]
+        for row, block in enumerate(blocks):
+            with _naming_row(row):
+                self.nc.check(block)
         instants = np.arange(self.runtime.cycles, self.runtime.cycles + cycles, dtype=np.float64)
         time = self.runtime.start_time + self.runtime.tables.cycle_time * instants
+        notices: list[str] = []
+        pieces = []
+        for first, last in _pieces(blocks, cycles):
+            rows = [column[first:last] for column in columns]
+            if first < len(blocks) and blocks[first].strip():
+                inputs = {variable.name: column.item() for variable, column in zip(given, rows, strict=True)}
+                with _naming_row(first):
+                    notices += self._cycle(inputs, blocks[first])
+                pieces.append({name: np.array([value]) for name, value in self.get().items()})
+            else:
+                pieces.append(self._run_piece(given, rows))
+        values = pieces[0]
+        if len(pieces) > 1:
+            values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
+        return Result(time, values, (*notices, *self.runtime.notices()))
+
+    def _run_piece(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """Run some rows, compiled if possible."""
         kernel = compiled_kernel()
-        values = self._run_in_python(given, columns) if kernel is None else self._run_compiled(kernel, given, columns)
-        return Result(time, values, tuple(self.runtime.notices()))
+        return self._run_in_python(given, columns) if kernel is None else self._run_compiled(kernel, given, columns)
 
     def _run_compiled(
         self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
@@ -223,6 +271,24 @@ def _length(columns: Mapping[str, ArrayLike]) -> int:
         shapes = ", ".join(f"{name}: {shape}" for name, shape in lengths.items())
         raise ValueError(f"the columns of a trajectory are one-dimensional and equally long, not {shapes}")
     return int(next(iter(lengths.values()))[0])
+
+
+def _pieces(blocks: Sequence[str], cycles: int) -> list[tuple[int, int]]:
+    """Return first and last row + 1 of the pieces of a trajectory; one that begins with a command is that row alone."""
+    borders = {0, cycles}
+    for row, block in enumerate(blocks):
+        if block.strip():
+            borders |= {row, row + 1}
+    return list(pairwise(sorted(borders))) or [(0, 0)]
+
+
+@contextmanager
+def _naming_row(row: int) -> Iterator[None]:
+    """Put the row into the error of a command."""
+    try:
+        yield
+    except NcError as error:
+        raise ValueError(f"command in row {row}: {error}") from error
 
 
 def _column(variable: Variable, values: ArrayLike) -> NDArray[Any]:

@@ -16,8 +16,10 @@ from .kernel.cycle import cycle
 from .kernel.initial import set_initial_inputs
 from .kernel.record import zero
 from .kernel.records import ERROR_UPDATE, Inputs, Outputs, State, Tables
+from .kernel.volumetric_switching import adopt_volumetric
 from .machine import Machine
 from .snapshot import SnapshotError, identity_of, pack, unpack
+from .volumetric import Volumetric
 
 ON_INSTANT = 0.01
 """Share of a cycle by which a communication point may miss the instant of a cycle: hosts add up their steps."""
@@ -159,6 +161,20 @@ class Runtime:
         self.machine, self.tables = replace(machine, axes=tuple(axes)), after
         self._identity = None
         return {axis.name: error for axis, error in zip(axes, errors, strict=False) if error}
+
+    def update_volumetric(self, volumetric: Volumetric) -> None:
+        """Take new data of one volumetric compensation, which is switched off for that without motion.
+
+        An automatic one then switches on again. CompileError if it cannot be run; nothing has changed then.
+        """
+        index = volumetric.index
+        others = (one for one in self.machine.volumetric if one.index != index)
+        machine = replace(self.machine, volumetric=tuple(sorted((*others, volumetric), key=lambda one: one.index)))
+        after = compile_tables(machine, self.tables.cycle_time)
+        adopt_volumetric(self.tables.volumetric[index], after.volumetric[index], self.state.volumetric[index])
+        self.outputs.volumetric[index].active = False
+        self.machine, self.tables = machine, after
+        self._identity = None
 
 
 __all__ = ["Runtime", "SnapshotError", "UpdateError", "initial_inputs"]

@@ -1,7 +1,7 @@
 """The controller's files, read and written: grammar, parameter catalogue, findings, one module per kind of file."""
 
 from .findings import CODES, Finding, ListError, Severity
-from .reader import Reading, list_files, read_machine
+from .reader import Reading, list_files, read_machine, reread_volumetric
 from .writer import format_axis_list, format_compensation_list, format_start_up_list, write_machine
 
 __all__ = [
@@ -15,5 +15,6 @@ __all__ = [
     "format_start_up_list",
     "list_files",
     "read_machine",
+    "reread_volumetric",
     "write_machine",
 ]

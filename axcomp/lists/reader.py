@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..machine import KINDS, Axis, Machine
+from ..volumetric import Volumetric
 from . import cross, crosstalk, friction, leadscrew, plane
 from .axes import ACTIVATION, Axes, AxisSettings, read_axis
 from .compensation import CompensationList
@@ -16,7 +17,7 @@ from .findings import Finding, Findings, ListError, Severity
 from .parameter import ListKind
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues, read_values
-from .volumetric_list import read_volumetric
+from .volumetric_list import read_one, read_volumetric
 
 
 class Reading(NamedTuple):
@@ -80,6 +81,43 @@ def list_files(path: str | PathLike[str]) -> tuple[Path, ...]:
     return tuple(dict.fromkeys(reader.files.read))
 
 
+def reread_volumetric(
+    path: str | PathLike[str], index: int, files: Mapping[int, str]
+) -> tuple[Volumetric | None, tuple[Finding, ...]]:
+    """Read one volumetric compensation of a machine again.
+
+    Parameters
+    ----------
+    path : path
+        As for ``read_machine``.
+    index : int
+        Of the compensation.
+    files : mapping of int to str
+        Parameter files to be read instead of those the list names, by their index.
+
+    Returns
+    -------
+    Volumetric or None
+        None if there is none, or an error keeps it off.
+    tuple of Finding
+        What there is to say about this compensation.
+    """
+    findings = Findings()
+    start = _MachineReader(Findings()).start(Path(path))
+    if start is None:
+        return None, ()
+    volumetric = read_one(index, start.lists, Files(findings), start.axes, findings, files)
+    return volumetric, findings.all()
+
+
+class _Start(NamedTuple):
+    """What is known before the tables are read: the compensation lists by axis number, and all axes."""
+
+    lists: MachineFiles
+    axes: Axes
+    tables: dict[int, ListValues]
+
+
 class _MachineReader:
     """Reads axis lists, then compensation lists, then the tables: these need to know all axes."""
 
@@ -87,17 +125,24 @@ class _MachineReader:
         self.findings = findings
         self.files = Files(findings)
 
-    def read(self, path: Path) -> Machine:
-        """Return the machine whose lists are at a path."""
+    def start(self, path: Path) -> _Start | None:
+        """Read all but the tables; None, with a finding, if that is impossible."""
         try:
             lists = find_lists(path, self.files, self.findings)
         except (OSError, ValueError) as error:
             self.findings.add("AXC-UNREADABLE", str(path), 0, "", f"The path cannot be used: {error}.")
-            return Machine()
+            return None
         axes = Axes(self.findings, invent=not lists.has_axis_lists)
         default = self._default_values(lists)
         self._read_axis_lists(lists, axes, default)
-        tables = self._read_compensation_lists(lists, axes, default)
+        return _Start(lists, axes, self._read_compensation_lists(lists, axes, default))
+
+    def read(self, path: Path) -> Machine:
+        """Return the machine whose lists are at a path."""
+        start = self.start(path)
+        if start is None:
+            return Machine()
+        lists, axes, tables = start
         # Reading a table may add the axes it refers to.
         compensations = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
         volumetric = read_volumetric(lists, self.files, axes, self.findings)

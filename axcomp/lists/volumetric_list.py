@@ -6,7 +6,8 @@ An error in a list or a file keeps its compensation off: with half of its parame
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 
 from ..machine import AxisType
 from ..volumetric import (
@@ -48,33 +49,56 @@ _FILE_NAME, _MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
 
 def read_volumetric(lists: MachineFiles, files: Files, axes: Axes, findings: Findings) -> tuple[Volumetric, ...]:
     """Return the volumetric compensations of a machine; where there are no axis lists, ``axes`` grows by their axes."""
+    found = (read_one(index, lists, files, axes, findings) for index in range(COMPENSATIONS_MAX))
+    return tuple(one for one in found if one is not None)
+
+
+def read_one(
+    index: int,
+    lists: MachineFiles,
+    files: Files,
+    axes: Axes,
+    findings: Findings,
+    named: Mapping[int, str] = MappingProxyType({}),
+) -> Volumetric | None:
+    """Return one compensation, None where there is none or an error keeps it off.
+
+    ``named``: parameter files to be read instead of those the list names, by their index.
+    """
     start_up = lists.start_up
-    if start_up is None:
-        return ()
-    found = []
-    for index in range(COMPENSATIONS_MAX):
-        if name := start_up.text(_FILE_NAME, index):
-            parameter = _FILE_NAME.replace("[i]", f"[{index}]")
-            path = files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
-            text = None if path is None else files.text(path)
-            if path is not None and text is not None:
-                errors = findings.errors()
-                values = read_values(text, str(path), ListKind.VOLUMETRIC, findings)
-                reader = VolumetricReader(index, values, lists, files, axes, findings)
-                volumetric = reader.read()
-                if findings.errors() == errors:
-                    found.append(volumetric)
-                    reader.check_limits(dict(volumetric.axes))
-    return tuple(found)
+    name = "" if start_up is None else start_up.text(_FILE_NAME, index)
+    if start_up is None or not name:
+        return None
+    parameter = _FILE_NAME.replace("[i]", f"[{index}]")
+    path = files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
+    text = None if path is None else files.text(path)
+    if path is None or text is None:
+        return None
+    errors = findings.errors()
+    values = read_values(text, str(path), ListKind.VOLUMETRIC, findings)
+    reader = VolumetricReader(index, values, lists, files, axes, findings, named)
+    volumetric = reader.read()
+    if findings.errors() > errors:
+        return None
+    reader.check_limits(dict(volumetric.axes))
+    return volumetric
 
 
 class VolumetricReader:
     """Reads one volumetric list."""
 
     def __init__(
-        self, index: int, values: ListValues, lists: MachineFiles, files: Files, axes: Axes, findings: Findings
+        self,
+        index: int,
+        values: ListValues,
+        lists: MachineFiles,
+        files: Files,
+        axes: Axes,
+        findings: Findings,
+        named: Mapping[int, str] = MappingProxyType({}),
     ) -> None:
         self.index = index
+        self.named = [named.get(j, values.text("file[j]", j)) for j in range(FILES_MAX)]
         self.values = values
         self.lists = lists
         self.files = files
@@ -116,7 +140,7 @@ class VolumetricReader:
             filter_steps=values.integer("filter_steps"),
             associate_to_channel=values.flag("associate_to_channel"),
             max_records=self._max_records(),
-            files=tuple(values.text("file[j]", j) for j in range(FILES_MAX)),
+            files=tuple(self.named),
             diagnosis_file=values.text("diagnosis_file"),
         )
 
@@ -133,8 +157,7 @@ class VolumetricReader:
     def _blocks(self) -> Iterator[ParameterBlock]:
         """Yield what the parameter files hold."""
         empty = True
-        for j in range(FILES_MAX):
-            name = self.values.text("file[j]", j)
+        for j, name in enumerate(self.named):
             if not name:
                 continue
             path = self.files.named(self.lists.folder, name, (*self.values.place("file[j]", j), f"file[{j}]"))
