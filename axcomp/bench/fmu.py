@@ -87,31 +87,46 @@ def _measure(path: str, repeats: int) -> tuple[list[float], list[float]]:
 
 
 def _steps(slave: FMU2Slave, description: Any) -> float:
-    """Run ``STEPS`` steps; every real and Boolean input is set and every output is read in each."""
-    groups = {}
-    for causality in ("input", "output"):
-        for kind, c_type in (("Real", ctypes.c_double), ("Boolean", ctypes.c_int), ("Integer", ctypes.c_int)):
-            chosen = [
-                variable
-                for variable in description.modelVariables
-                if variable.causality == causality and variable.type == kind and variable.name != "reload"
-            ]
-            references = (ctypes.c_uint * len(chosen))(*(variable.valueReference for variable in chosen))
-            values = (c_type * len(chosen))()
-            if kind == "Boolean":
-                values[:] = [variable.start == "true" for variable in chosen]
-            groups[causality, kind] = references, values
-    set_reals, reals = groups["input", "Real"]
-    set_booleans, booleans = groups["input", "Boolean"]
-    outputs = [(getattr(slave, f"fmi2Get{kind}"), *groups["output", kind]) for kind in ("Real", "Boolean", "Integer")]
-    component, count, size = slave.component, len(reals), description.defaultExperiment.stepSize
-    rows = [[100 * math.sin(1e-3 * k + i) for i in range(count)] for k in range(STEPS)]
+    """Run ``STEPS`` steps; every real and Boolean input is set and every output is read in each.
+
+    FMPy's functions are called without its checks in Python around them, which cost more than a native step.
+    """
+    size = float(description.defaultExperiment.stepSize)
+    component, set_real, set_boolean, do_step = (
+        slave.component,
+        slave.dll.fmi2SetReal,
+        slave.dll.fmi2SetBoolean,
+        slave.dll.fmi2DoStep,
+    )
+    reals, real_input = _values(description, "input", "Real")
+    _, boolean_input = _values(description, "input", "Boolean")
+    outputs = [
+        (getattr(slave.dll, f"fmi2Get{kind}"), *_values(description, "output", kind)[1])
+        for kind in ("Real", "Boolean", "Integer")
+    ]
+    rows = [(size * k, [100 * math.sin(1e-3 * k + i) for i in range(len(reals))]) for k in range(STEPS)]
     begin = time.process_time()
-    for k, row in enumerate(rows):
+    for instant, row in rows:
         reals[:] = row
-        slave.fmi2SetReal(component, set_reals, count, reals)
-        slave.fmi2SetBoolean(component, set_booleans, len(booleans), booleans)
-        slave.fmi2DoStep(component, float(k) * float(size), float(size), 0)
-        for get, references, values in outputs:
-            get(component, references, len(values), values)
+        set_real(component, *real_input)
+        set_boolean(component, *boolean_input)
+        do_step(component, instant, size, 0)
+        for get, references, count, values in outputs:
+            get(component, references, count, values)
     return time.process_time() - begin
+
+
+def _values(description: Any, causality: str, kind: str) -> tuple[Any, tuple[Any, int, Any]]:
+    """Return an array with the start values of some variables, and what a call needs: references, count, values."""
+    chosen = [
+        variable
+        for variable in description.modelVariables
+        if variable.causality == causality and variable.type == kind and variable.name != "reload"
+    ]
+    c_type = ctypes.c_double if kind == "Real" else ctypes.c_int
+    references = (ctypes.c_uint * len(chosen))(*(variable.valueReference for variable in chosen))
+    values: Any = (c_type * len(chosen))()
+    if (causality, kind) == ("input", "Boolean"):
+        values[:] = [variable.start == "true" for variable in chosen]
+    pointers = ctypes.cast(references, ctypes.POINTER(ctypes.c_uint)), ctypes.cast(values, ctypes.POINTER(c_type))
+    return values, (pointers[0], len(chosen), pointers[1])
