@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..compile import CYCLE_TIME
+from ..diagnosis.records import volumetric_lists
 from ..fmu.archive import BuildError
 from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native, write_image
 from ..fmu.package import package_axcomp, package_plant
+from ..lists import Reading
 from ..native.compiler import PLATFORMS
 from ..places import models
 
@@ -96,6 +98,7 @@ def _do_build(args: argparse.Namespace) -> int:
             print(finding, file=sys.stderr)
         for line in _summary(built):
             print(line)
+        _write_diagnoses(args.machine or example, built)
         if args.machine is None and args.output is None and args.image is None:
             print(package_plant(example, Path.cwd(), external_tool=not args.no_external_tool).name)
     except NoCompilerError as error:
@@ -118,6 +121,24 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
     return package_axcomp(
         lists, output, cycle_time=args.cycle_time, naming=args.naming, external_tool=not args.no_external_tool
     )
+
+
+def _write_diagnoses(lists: Path, built: Built) -> None:
+    """Write the diagnosis files that volumetric lists name; what stands in the way of that stops no build."""
+    sources = [source for source in volumetric_lists(lists)[0] if source.diagnosis_file]
+    if not sources:
+        return
+    try:
+        from ..diagnosis.files import Written, write_diagnoses  # noqa: PLC0415 - openpyxl is of the extra "workbench"
+    except ModuleNotFoundError as error:
+        names = ", ".join(source.diagnosis_file for source in sources)
+        print(f"note: {names}: not written without {error.name}: pip install 'axcomp[workbench]'.", file=sys.stderr)
+        return
+    for result in write_diagnoses(sources, Reading(built.machine, built.findings)):
+        if isinstance(result, Written):
+            print(result.path)
+        for note in result.notes if isinstance(result, Written) else [result]:
+            print(f"note: {note}", file=sys.stderr)
 
 
 def _summary(built: Built) -> Iterator[str]:
