@@ -10,7 +10,21 @@ from collections.abc import Sequence
 from importlib import import_module
 from types import ModuleType
 
-COMMANDS = ("build", "check", "parameters", "run", "demo", "bench", "measure", "create", "convert", "show", "sweep", "budget", "diagnose")
+COMMANDS = (
+    "build",
+    "check",
+    "parameters",
+    "run",
+    "demo",
+    "bench",
+    "measure",
+    "create",
+    "convert",
+    "show",
+    "sweep",
+    "budget",
+    "diagnose",
+)
 """Each is a module with ``add_subparser(subparsers)``, which sets ``do``: a function of the options → exit status."""
 
 
