@@ -67,7 +67,9 @@ def _summary(reading: Reading, counts: dict[Severity, int]) -> str:
     axes = reading.machine.axes
     compensations = sum(1 for axis in axes for _ in axis.compensations())
     found = ", ".join(_counted(count, severity.value) for severity, count in counts.items())
-    return f"{found}; {_counted(len(axes), 'axis')} with {_counted(compensations, 'compensation')}."
+    volumetric = _counted(len(reading.machine.volumetric), "volumetric compensation")
+    of_axes = f"{_counted(len(axes), 'axis')} with {_counted(compensations, 'compensation')}"
+    return f"{found}; {of_axes}{f' and {volumetric}' if reading.machine.volumetric else ''}."
 
 
 def _counted(count: int, noun: str) -> str:

@@ -11,6 +11,7 @@ from axcomp.lists import write_machine
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.lists.reference import PAGE, page
 from axcomp.machine import Axis, Cross, Machine
+from axcomp.places import models
 
 Capture = pytest.CaptureFixture[str]
 
@@ -24,6 +25,12 @@ def lists(tmp_path: Path) -> Path:
 def test_a_faultless_machine_is_summed_up(lists: Path, capsys: Capture) -> None:
     assert main(["check", str(lists)]) == 0
     assert capsys.readouterr().out == "0 errors, 0 warnings, 0 infos; 2 axes with 1 compensation.\n"
+
+
+def test_volumetric_compensations_are_counted(capsys: Capture) -> None:
+    main(["check", str(models() / "five_axis")])
+    summary = capsys.readouterr().out.splitlines()[-1]
+    assert summary.endswith("; 5 axes with 0 compensations and 2 volumetric compensations.")
 
 
 def test_findings_are_lines_with_file_and_line_and_the_status_counts_errors(lists: Path, capsys: Capture) -> None:
