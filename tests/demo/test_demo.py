@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import shutil
 from pathlib import Path
 
@@ -35,6 +36,18 @@ def test_errors_shrink_as_promised(name: str, rows: int, tmp_path: Path) -> None
     assert width == 1200
     assert 400 <= height <= 1000
     assert {path.name for path in (tmp_path / "new").iterdir()} == {"axcomp.fmu", "plant.fmu"}
+
+
+@pytest.mark.slow
+def test_without_a_compiler_it_is_shown_with_the_python_fmu(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    find_spec = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "ziglang" else find_spec(name))
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path / "nothing"))
+    demo = demonstrate(models() / "rotary_table", tmp_path / "out")
+    assert "install gcc or clang" in demo.note
+    assert "runs in Python" in demo.note
+    check(demo)
 
 
 @pytest.mark.slow

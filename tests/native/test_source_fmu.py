@@ -19,7 +19,7 @@ from axcomp.native.compiler import PLATFORMS, own_platform
 COMPILERS = {
     "C99": ["gcc", "-std=c99", "-pedantic"],
     "GNU C": ["gcc"],
-    "no contraction needed": ["gcc", "-O3", "-mavx2", "-mfma"],
+    "AVX2": ["gcc", "-O3", "-mavx2", "-mfma"],
     "C++": ["g++", "-x", "c++"],
     "C++20": ["g++", "-std=c++20", "-x", "c++"],
     "clang": ["clang", "-std=c99", "-pedantic"],
