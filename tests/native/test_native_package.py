@@ -91,10 +91,12 @@ def test_libraries_do_not_depend_on_where_and_when_they_are_compiled(platform: s
     assert libraries[0] == libraries[1]
 
 
-def test_the_linux_library_runs_on_old_systems_and_takes_its_mathematics_from_them(native_fmu: Path) -> None:
+def test_the_linux_library_runs_on_old_systems_and_takes_its_mathematics_from_them(
+    native_fmu: Path, tmp_path: Path
+) -> None:
     if not has_cross_compiler() or own_platform() != "linux64" or not shutil.which("nm"):
         pytest.skip("there is no cross compiler (pip install axcomp[cross]) or no nm on this machine")
-    library = Path(fmpy.extract(native_fmu)) / "binaries" / "linux64" / "axcomp.so"
+    library = Path(fmpy.extract(native_fmu, tmp_path)) / "binaries" / "linux64" / "axcomp.so"
     command = ["nm", "-D", "--undefined-only", "--format=just-symbols", str(library)]
     symbols = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
     versions = [tuple(map(int, symbol.partition("@GLIBC_")[2].split("."))) for symbol in symbols if "@GLIBC_" in symbol]
