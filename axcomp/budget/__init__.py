@@ -1,0 +1,1 @@
+"""What each compensation and each error contributes along a path: ``axcomp budget``."""
