@@ -14,9 +14,10 @@ from pathlib import Path
 from ..bench.clock import Sample
 from ..bench.engine import bench_engine, bench_growth, bench_lists, bench_memory
 from ..bench.fmu import bench_fmus
+from ..bench.native_host import bench_native_host
 from ..fmu.archive import BuildError
 from ..lists import read_machine
-from ..native.compiler import has_cross_compiler
+from ..native.compiler import CompilerError, has_cross_compiler
 from ..places import models
 
 EXAMPLE = """example:
@@ -63,6 +64,10 @@ def _samples(quick: bool) -> Iterator[Sample]:
             yield from bench_fmus(models() / "three_axis", Path(folder), repeats, all_platforms=all_platforms)
         except BuildError as error:
             print(f"axcomp bench: {error}", file=sys.stderr)
+    try:
+        yield from bench_native_host(repeats)
+    except CompilerError as error:
+        print(f"axcomp bench: {error}", file=sys.stderr)
     yield from bench_growth(repeats)
     yield from bench_lists(repeats)
     yield from bench_memory(three, 10_000 if quick else 1_000_000)

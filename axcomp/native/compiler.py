@@ -78,12 +78,24 @@ def compile_library(
     linking = ["-shared", *(["-s"] if platform == "win64" else ["-fPIC", "-lm"])]
     if platform == "linux64":
         linking += ["-Wl,-s", "-Wl,--build-id=none", "-ldl"]
+    _compile([*compiler, *FLAGS, *flags], sources, output, linking)
+
+
+def compile_program(
+    sources: Sequence[Path], output: Path, *, compiler: Sequence[str], flags: Sequence[str] = ()
+) -> None:
+    """Compile C sources into a program for this machine, which may use what POSIX adds to C; raises as the above."""
+    linking = [] if own_platform() == "win64" else ["-lm", "-ldl"]
+    _compile([*compiler, *FLAGS, "-D_GNU_SOURCE", *flags], sources, output, linking)
+
+
+def _compile(begin: Sequence[str], sources: Sequence[Path], output: Path, linking: Sequence[str]) -> None:
     absolute = [str(source.absolute()) for source in sources]
-    command = [*compiler, *FLAGS, *flags, *absolute, "-o", output.name, *linking]
+    command = [*begin, *absolute, "-o", output.name, *linking]
     try:
         # In the folder of the output: some linkers note its path in it, or put more files beside it.
         result = subprocess.run(command, capture_output=True, text=True, check=False, cwd=output.parent)
     except OSError as error:
-        raise CompilerError(f"the C compiler {compiler[0]} cannot be run: {error}") from None
+        raise CompilerError(f"the C compiler {begin[0]} cannot be run: {error}") from None
     if result.returncode != 0:
-        raise CompilerError(f"the C compiler {compiler[0]} has failed:\n{result.stderr.strip()}")
+        raise CompilerError(f"the C compiler {begin[0]} has failed:\n{result.stderr.strip()}")

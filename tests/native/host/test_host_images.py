@@ -265,7 +265,7 @@ def test_an_empty_path_means_the_image_in_the_resources(
 
 @PLAIN
 def test_updates_without_end_need_no_memory(host: Callable[[str], Program], way: str, resources: Path) -> None:
-    """Two images in turn, a thousand times: the instance keeps each of them once (leaks would show in the sanitizer)."""
+    """Two images in turn, a thousand times: the instance keeps each of them once."""
     for name, machine in (("a.bin", MACHINE), ("b.bin", doubled(MACHINE))):
         (resources / name).write_bytes(image(machine))
     turn = []

@@ -57,9 +57,8 @@ class Expected:
 class Walk:
     """Writes a script, and what each of its lines must return: a status, and the words behind it or None."""
 
-    def __init__(self, seed: int, location: Path) -> None:
+    def __init__(self, seed: int) -> None:
         self.source = random.Random(seed)
-        self.location = location
         self.instances = [Expected(MACHINE) for _ in range(INSTANCES)]
         self.states: list[tuple[Any, ...] | None] = [None] * STATES
         self.times = [0.0] * INSTANCES
@@ -104,7 +103,7 @@ class Walk:
         """Put a new instance in the slot."""
         if self.instances[slot].phase != "none":
             self.say(f"free {slot}", OK)
-        self.say(f"instantiate {slot} name{slot} 1 {GUID} {self.location} 1 0", 1)
+        self.say(f"instantiate {slot} name{slot} 1 {GUID} . 1 0", 1)
         self.instances[slot].reset()
 
     def make_again(self, slot: int, it: Expected) -> None:
@@ -167,7 +166,7 @@ class Walk:
             self.times[slot] += size
             it.runtime.advance(self.times[slot])
 
-    def wrong_step(self, slot: int, it: Expected) -> None:
+    def wrong_step(self, slot: int, _: Expected) -> None:
         time, size = self.source.choice(
             [(0.0, math.nan), (math.nan, 0.001), (0.0, -0.001), (0.0, math.inf), (0.0, 1e300), (-math.inf, 1e-3)]
         )
@@ -218,7 +217,7 @@ class Walk:
     def _word(value: float | int | bool) -> str:
         return bits(value) if isinstance(value, float) else str(int(value))
 
-    def wrong_variable(self, slot: int, it: Expected) -> None:
+    def wrong_variable(self, slot: int, _: Expected) -> None:
         """Outputs cannot be set; there is no such reference; it has another type."""
         output, given = BLOCK + 8, BLOCK
         self.say(
@@ -242,7 +241,7 @@ class Walk:
             ERROR,
         )
 
-    def nulls(self, slot: int, it: Expected) -> None:
+    def nulls(self, slot: int, _: Expected) -> None:
         self.say(f"nulls {slot}", 1)
 
     # States
@@ -301,7 +300,7 @@ def resources(tmp_path: Path) -> Path:
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("way", ["gcc", "sanitized"])
 def test_any_sequence_of_calls(host: Callable[[str], Program], way: str, seed: int, resources: Path) -> None:
-    walk = Walk(seed, resources)
+    walk = Walk(seed)
     walk.go(1500)
     check(walk, host(way).run(walk.script, resources))
 
@@ -309,7 +308,7 @@ def test_any_sequence_of_calls(host: Callable[[str], Program], way: str, seed: i
 @pytest.mark.slow
 @pytest.mark.parametrize("way", ["valgrind", "zig", "win64", "aarch64"])
 def test_any_sequence_of_calls_elsewhere(host: Callable[[str], Program], way: str, resources: Path) -> None:
-    walk = Walk(99, resources)
+    walk = Walk(99)
     walk.go(800)
     check(walk, host(way).run(walk.script, resources))
 
@@ -317,13 +316,13 @@ def test_any_sequence_of_calls_elsewhere(host: Callable[[str], Program], way: st
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(100, 130))
 def test_many_more_sequences(host: Callable[[str], Program], seed: int, resources: Path) -> None:
-    walk = Walk(seed, resources)
+    walk = Walk(seed)
     walk.go(4000)
     check(walk, host("sanitized").run(walk.script, resources))
 
 
-def test_the_walk_visits_every_phase_and_both_outcomes(resources: Path) -> None:
-    walk = Walk(0, resources)
+def test_the_walk_visits_every_phase_and_both_outcomes() -> None:
+    walk = Walk(0)
     walk.go(6000)
     calls = {(line.split()[0], status) for line, (status, _) in zip(walk.script, walk.expected, strict=True)}
     for call in (

@@ -1,0 +1,134 @@
+"""What the native FMU costs in a host written in C, beside an FMU that only copies and the kernel without an FMU."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from ..compile import CYCLE_TIME, compile_tables
+from ..fmu.native_package import IMAGE, SOURCES
+from ..fmu.variable import Variable, with_causality
+from ..fmu.variables import variables_of
+from ..lists import read_machine
+from ..machine import Machine
+from ..native.compiler import PLATFORMS, compile_library, compile_program, compiler_of, own_platform
+from ..native.image import image_of
+from ..places import fmu_sources, models
+from .clock import Sample
+from .machines import machine_of
+
+AXES = (3, 8, 16, 32)
+POINTS = (10, 100, 1000, 10_000)
+GUID = "{bench}"
+KERNEL_SOURCES = ("image.c", "kernel.c", "resource.c")
+GOALS = {"three_axis": 1000.0, "five_axis": 3000.0}
+"""Example machine → what a cycle may cost in a C host, ns."""
+
+CALLS = 3.0
+"""The FMU may cost so many times what copying and the bare kernel cost together."""
+
+
+class NativeHost:
+    """The C host, an FMU library and one that only copies, compiled into a folder.
+
+    Raises
+    ------
+    CompilerError
+        If there is no C compiler, or it fails.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        native, host = (fmu_sources() / name for name in ("native", "native_host"))
+        platform = own_platform()
+        suffix = PLATFORMS[platform].suffix
+        compiler = compiler_of(platform)
+        includes = [f"-I{native}", f"-I{host}"]
+        self._folder = folder
+        self._host = folder / f"bench{'.exe' if sys.platform == 'win32' else ''}"
+        self._fmu, self._copy = folder / f"axcomp{suffix}", folder / f"copy{suffix}"
+        compile_library([native / name for name in SOURCES], self._fmu, compiler=compiler, platform=platform)
+        compile_library(
+            [host / "copying_fmu.c"], self._copy, compiler=compiler, platform=platform, flags=[f"-I{native}"]
+        )
+        sources = [host / "bench.c", host / "fmu_library.c", *(native / name for name in KERNEL_SOURCES)]
+        compile_program(sources, self._host, compiler=compiler, flags=includes)
+
+    def cycle(self, machine: Machine, batches: int) -> tuple[float, ...]:
+        """Return the ns of a cycle through the FMU: set all inputs, step, get all outputs."""
+        return self._through(self._fmu, machine, batches)
+
+    def copying(self, machine: Machine, batches: int) -> tuple[float, ...]:
+        """Return the ns of a cycle through the FMU that only copies, with as many variables."""
+        return self._through(self._copy, machine, batches)
+
+    def kernel(self, machine: Machine, batches: int) -> tuple[float, ...]:
+        """Return the ns of a cycle of the kernel alone."""
+        self._write_image(machine)
+        return self._run("kernel", str(self._folder / IMAGE), str(batches))
+
+    def _through(self, library: Path, machine: Machine, batches: int) -> tuple[float, ...]:
+        self._write_image(machine)
+        plan = self._folder / "plan.txt"
+        plan.write_text(plan_of(machine), encoding="ascii")
+        return self._run("fmu", str(library), str(self._folder), GUID, str(plan), str(batches))
+
+    def _write_image(self, machine: Machine) -> None:
+        (self._folder / IMAGE).write_bytes(image_of(compile_tables(machine), GUID))
+
+    def _run(self, *arguments: str) -> tuple[float, ...]:
+        result = subprocess.run([self._host, *arguments], capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            raise RuntimeError(f"the host program has failed: {result.stderr.strip()}")
+        return tuple(map(float, result.stdout.split()))
+
+
+def plan_of(machine: Machine) -> str:
+    """Return the plan that ``bench.c`` reads: step size, then the variables to set and to get."""
+    inputs = [v for v in with_causality(variables_of(machine), "input") if v.name != "reload"]
+    outputs = with_causality(variables_of(machine), "output")
+    flags = [(v.reference, int(v.start)) for v in _of_type(inputs, bool)]
+    lines: list[Sequence[int]] = [
+        [v.reference for v in _of_type(inputs, float)],
+        [number for pair in flags for number in pair],
+        *([v.reference for v in _of_type(outputs, kind)] for kind in (float, int, bool)),
+    ]
+    counts = [len(lines[0]), len(flags), *map(len, lines[2:])]
+    texts = (" ".join(map(str, (count, *line))) for count, line in zip(counts, lines, strict=True))
+    return "\n".join([repr(CYCLE_TIME), *texts, ""])
+
+
+def _of_type(variables: Iterable[Variable], kind: type) -> list[Variable]:
+    return [variable for variable in variables if type(variable.start) is kind]
+
+
+def bench_native_host(repeats: int) -> Iterator[Sample]:
+    """Measure the example machines in the C host, and how a cycle grows with the axes and with the points.
+
+    Parameters
+    ----------
+    repeats : int
+        Batches of 2000 cycles are measured ten times as often.
+
+    Raises
+    ------
+    CompilerError
+        If there is no C compiler, or it fails.
+    """
+    batches = 10 * repeats
+    with tempfile.TemporaryDirectory() as folder:
+        host = NativeHost(Path(folder))
+        for name, goal in GOALS.items():
+            machine = read_machine(models() / name).machine
+            kernel = Sample(f"bare kernel, {name}", "ns", host.kernel(machine, batches))
+            copying = Sample(f"FMU that only copies, variables of {name}", "ns", host.copying(machine, batches))
+            limit = CALLS * (kernel.median + copying.median)
+            yield kernel
+            yield copying
+            yield Sample(f"cycle of {name} in a C host", "ns", host.cycle(machine, batches), min(goal, limit))
+        for axes in AXES:
+            yield Sample(f"C host, {axes} axes, 100 points", "ns", host.cycle(machine_of(axes, 100), batches))
+        for points in POINTS:
+            yield Sample(f"C host, 3 axes, {points} points", "ns", host.cycle(machine_of(3, points), batches))
