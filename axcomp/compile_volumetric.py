@@ -116,13 +116,11 @@ class _Compiler:
                 table.axis[LETTERS.index(letter)] = self.machine.index_of(number)
             except KeyError:
                 raise CompileError(f"{self._name()}: its axis {letter} = {number} does not exist") from None
-        for letter, number in volumetric.axes:
-            for index, axis in enumerate(self.machine.axes):
-                if number == (axis.number if axis.number in numbers else axis.gantry_master):
-                    table.member[table.members] = index
-                    table.member_letter[table.members] = LETTERS.index(letter)
-                    table.member_limit[table.members] = axis.volumetric_limit or 0.0
-                    table.members += 1
+        for m, (place, letter) in enumerate(self.machine.members(volumetric).items()):
+            table.member[m] = place
+            table.member_letter[m] = LETTERS.index(letter)
+            table.member_limit[m] = self.machine.axes[place].volumetric_limit or 0.0
+            table.members = m + 1
 
     def _model(self, table: VolumetricTable) -> None:
         volumetric = self.volumetric

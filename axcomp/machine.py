@@ -349,12 +349,16 @@ class Machine:
                 return axis
         raise KeyError(name)
 
+    def members(self, volumetric: Volumetric) -> dict[int, str]:
+        """Return place in ``axes`` → letter of the axes that take part; gantry slaves have their master's letter."""
+        letters = {number: letter for letter, number in volumetric.axes}
+        leaders = [axis.number if axis.number in letters else axis.gantry_master for axis in self.axes]
+        return {place: letters[number] for place, number in enumerate(leaders) if number in letters}
+
     def corrected_by(self, volumetric: Volumetric) -> frozenset[int]:
         """Return the numbers of the axes that a volumetric compensation corrects: X, Y, Z and their gantry slaves."""
-        assigned = {number for _, number in volumetric.axes}
-        leaders = {number for letter, number in volumetric.axes if letter in LINEAR}
-        slaves = {axis.number for axis in self.axes if axis.gantry_master in leaders and axis.number not in assigned}
-        return frozenset(leaders | slaves)
+        members = self.members(volumetric)
+        return frozenset(self.axes[place].number for place, letter in members.items() if letter in LINEAR)
 
     def __repr__(self) -> str:
         return "Machine(\n" + "".join(f"  {part!r},\n" for part in (*self.axes, *self.volumetric)) + ")"

@@ -26,10 +26,8 @@ def volumetric_input(volumetric: Volumetric, name: str) -> str:
 
 def volumetric_switch(machine: Machine, volumetric: Volumetric) -> Inputs:
     """Return what decides whether a volumetric compensation is on: s_limit makes it depend on its corrections."""
-    assigned = {number for _, number in volumetric.axes}
-    members = assigned | machine.corrected_by(volumetric)
-    places = [place for place, axis in enumerate(machine.axes) if axis.number in members]
-    own: list[Input] = [(place, name) for place in places for name in ("setpoint", "referenced", "fault")]
+    members = machine.members(volumetric)
+    own: list[Input] = [(place, name) for place in members for name in ("setpoint", "referenced", "fault")]
     own += [(None, volumetric_input(volumetric, name)) for name in COMMANDS_OF_VOLUMETRIC]
     return frozenset(own).union(((None, "tool_length"), *COMMANDS))
 
