@@ -132,7 +132,7 @@ def _write_diagnoses(lists: Path, built: Built) -> None:
         from ..diagnosis.files import Written, write_diagnoses  # noqa: PLC0415 - openpyxl is of the extra "workbench"
     except ModuleNotFoundError as error:
         names = ", ".join(source.diagnosis_file for source in sources)
-        print(f"note: {names}: not written without {error.name}: pip install 'axcomp[workbench]'.", file=sys.stderr)
+        print(f"note: {names} is not written without {error.name}: pip install 'axcomp[workbench]'.", file=sys.stderr)
         return
     for result in write_diagnoses(sources, Reading(built.machine, built.findings)):
         if isinstance(result, Written):
