@@ -49,10 +49,10 @@ static double now(void)
 #endif
 }
 
-/* Where the k-th real input is in a row: everything moves smoothly, back and forth. */
+/* The k-th real input in a row: everything moves smoothly, back and forth, at up to 0.25 mm in a cycle as machines do. */
 static double motion(unsigned row, unsigned k)
 {
-    return 200.0 * sin(6.283185307179586 * row / ROWS + k);
+    return 10.0 * sin(6.283185307179586 * row / ROWS + k);
 }
 
 static int read_group(FILE *file, Group *group, fmi2Boolean *values)
