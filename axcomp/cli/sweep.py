@@ -104,7 +104,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
 
         save(sweep.plot(args.x, args.y).figure, args.plot)
     if args.format == "json":
-        print(sweep.table.to_json(orient="records", indent=2, force_ascii=False))
+        print(sweep.table.to_json(orient="records", indent=2, force_ascii=False, double_precision=15))
     else:
         _print(args.output, sweep.table, sweep.taken_over)
     failed = sweep.failed

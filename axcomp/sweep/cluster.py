@@ -61,7 +61,7 @@ def completed(
             count = min(workers or os.cpu_count() or 1, len(items))
             with (
                 LocalCluster(
-                    n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                    n_workers=count, threads_per_worker=1, dashboard_address=":0", silence_logs=logging.CRITICAL
                 ) as cluster,
                 Client(cluster) as client,
             ):

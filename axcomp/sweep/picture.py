@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from ..show.style import labelled, line_styles, new_figure
-from .spec import ERROR, FINDINGS, RUN
+from .spec import ERROR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,10 +17,10 @@ LINES_NAMED = 12
 """Lines that a legend has room for."""
 
 
-def plot_sweep(table: pd.DataFrame, x: str, y: str, ax: Axes | None = None) -> Axes:
-    """Draw a result over a column, a line for each combination of the other columns that were varied.
+def plot_sweep(table: pd.DataFrame, varied: Sequence[str], x: str, y: str, ax: Axes | None = None) -> Axes:
+    """Draw a result over a column, a line for each combination of the others that were varied.
 
-    Columns left of ``y`` up to the first result are what was varied; they need not be numbers, ``x`` has to be.
+    These need not be numbers, ``x`` has to be. ValueError if a column is not there.
     """
     for name in (x, y):
         if name not in table or not pd.api.types.is_numeric_dtype(table[name]):
@@ -27,8 +28,7 @@ def plot_sweep(table: pd.DataFrame, x: str, y: str, ax: Axes | None = None) -> A
             raise ValueError(f"there is no column {name} of numbers; there are {', '.join(numeric)}")
     ax = new_figure().add_subplot() if ax is None else ax
     done = table[table[ERROR] == ""]
-    varied = list(done.columns[1 : list(done.columns).index(y)])
-    others = [n for n in varied if n not in {x, RUN, FINDINGS} and done[n].nunique(dropna=False) > 1]
+    others = [name for name in varied if name != x and done[name].nunique(dropna=False) > 1]
     groups = list(done.groupby(others, dropna=False, sort=False)) if others else [((), done)]
     for (values, group), (colour, marker) in zip(groups, line_styles(len(groups)), strict=True):
         ordered = group.sort_values(x)
@@ -36,4 +36,7 @@ def plot_sweep(table: pd.DataFrame, x: str, y: str, ax: Axes | None = None) -> A
         ax.plot(ordered[x], ordered[y], color=colour, marker=marker, ms=4, lw=1.2, label=label or None)
     if others and len(groups) <= LINES_NAMED:
         ax.legend(fontsize=9)
-    return labelled(ax, f"{y} over {x}", x, y)
+    title = (
+        f"{y} over {x}, {len(groups)} lines by {', '.join(others)}" if len(groups) > LINES_NAMED else f"{y} over {x}"
+    )
+    return labelled(ax, title, x, y)

@@ -30,11 +30,14 @@ class Sweep:
     ----------
     table : DataFrame
         A row a run, in the order of the specification: ``run``, what was varied, the results, ``findings``, ``error``.
+    varied : tuple of str
+        Columns of what was varied.
     taken_over : int
         Rows that were there already.
     """
 
     table: pd.DataFrame
+    varied: tuple[str, ...]
     taken_over: int
 
     @property
@@ -52,7 +55,7 @@ class Sweep:
         """Draw a result over what was varied, a line for each combination of the rest; return the Matplotlib axes."""
         from .picture import plot_sweep  # noqa: PLC0415 - Matplotlib takes long to load
 
-        return plot_sweep(self.table, x, y, ax)
+        return plot_sweep(self.table, self.varied, x, y, ax)
 
 
 WRITERS: dict[str, Callable[[pd.DataFrame, Path], object]] = {
@@ -150,7 +153,9 @@ def run_sweep(
                 rows[keys[run.index]] = row
                 journal.add(keys[run.index], row)
                 tell(done, len(runs))
-        sweep = Sweep(_table(spec, runs, [rows[key] for key in keys]), taken_over)
+        table = _table(spec, runs, [rows[key] for key in keys])
+        varied = tuple(str(name) for name in table if name not in {RUN, FINDINGS, ERROR, *spec.results})
+        sweep = Sweep(table, varied, taken_over)
         sweep.save(output)
         if sweep.failed.empty:
             journal.remove()

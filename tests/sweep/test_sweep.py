@@ -148,6 +148,25 @@ def test_a_finished_half_is_taken_over_and_the_rows_are_the_same(tmp_path: Path)
     assert written["peak"].tolist() == [row["peak"] for row in rows_of(spec)]
 
 
+def test_a_picture_has_a_line_for_each_combination_of_the_rest(tmp_path: Path) -> None:
+    spec = spec_of(tmp_path)
+    job, _ = job_of(spec)
+    runs = list(spec.every_run())
+    with Journal(tmp_path / "r.csv.journal") as journal:
+        for run, key in zip(runs, keys_of(job, runs), strict=True):
+            journal.add(key, perform(job, run))
+    sweep = run_sweep(spec, job, tmp_path / "r.csv")
+    assert sweep.varied == ("scale Y.leadscrew", "input X.plane.enable")
+    ax = sweep.plot("scale Y.leadscrew", "at")
+    assert [line.get_label() for line in ax.lines] == [f"input X.plane.enable = {on}" for on in (False, True)]
+    for line, on in zip(ax.lines, (False, True), strict=True):
+        chosen = sweep.table[sweep.table["input X.plane.enable"] == on]
+        assert line.get_xdata().tolist() == [0.0, 1.0, 2.0]
+        assert line.get_ydata().tolist() == chosen["at"].tolist()
+    with pytest.raises(ValueError, match="there is no column nothing of numbers; there are run"):
+        sweep.plot("scale Y.leadscrew", "nothing")
+
+
 def test_values_of_several_kinds_become_texts(tmp_path: Path) -> None:
     spec = spec_of(tmp_path, vary={"achskw1.lis: kw.crosscomp2.grid": ["RECTANGULAR", 5]})
     job, _ = job_of(spec)
