@@ -77,7 +77,9 @@ class CompensationList:
         if used < 1:
             self.note("AXC-SIZE", size_name, f"{size_name} is 0: the table is not used; the compensation stays off.")
         elif used > min(capacity, POINTS_MAX):
-            message = f"The table has {used:,} entries but room for {min(capacity, POINTS_MAX):,}"
+            message = (
+                f"By {size_name} the table has {used:,} entries, but there is room for {min(capacity, POINTS_MAX):,}"
+            )
             self.note("110647", size_name, f"{message}; the compensation stays off.")
         else:
             return True
@@ -126,19 +128,26 @@ class CompensationList:
             first = min(self.values.cells(name))
             self.note("AXC-UNUSED", name, f"{count:,} entries of {name} are not used: {reason}.", *first)
 
-    def ascending(self, positions: Sequence[float], name: str, code: str) -> bool:
+    def ascending(self, positions: Sequence[float], name: str, code: str, size_name: str) -> bool:
         """Check that positions ascend strictly and are of a sensible size; a finding at the first that does not."""
         for index, (before, after) in enumerate(pairwise(positions), 1):
             if after <= before:
-                message = f"The positions of the table do not ascend: {after:g} follows {before:g}"
-                self.note(code, name, f"{message}; the compensation stays off.", *self._indexed(name, index))
+                message = self._not_ascending(name, index, size_name)
+                self.note(code, name, f"{message}; the compensation stays off.", *([index] if "[" in name else []))
                 return False
         if max(-positions[0], positions[-1]) >= POSITION_MAX:
-            self.note(
-                code, name, f"The positions of the table go beyond ±{POSITION_MAX:g}; the compensation stays off."
-            )
+            self.note(code, name, f"The values of {name} go beyond ±{POSITION_MAX:g}; the compensation stays off.")
             return False
         return True
 
-    def _indexed(self, name: str, index: int) -> tuple[int, ...]:
-        return (index,) if "[" in name else ()
+    def _not_ascending(self, name: str, index: int, size_name: str) -> str:
+        """Say which entry does not ascend, in the numbers that stand in the list."""
+        values = self.values
+        if "[" not in name:
+            return f"{name} is too small for positions as large as these: they do not ascend"
+        shown = parameter(ListKind.COMPENSATION, name).named(index)
+        before, after = values.value(name, index - 1), values.value(name, index)
+        if values.given(name, index):
+            return f"{shown} = {after} is not above the entry before it, {before}"
+        size = f"is {size_name} = {values.value(size_name)} too large?"
+        return f"{shown} is missing, and the {after} in its place is not above {before} before it ({size})"

@@ -25,7 +25,7 @@ def read_cross(source: CompensationList) -> Cross | None:
     master_gear, slave_gear = source.gears("kw.crosscomp.unit", master, source.axis)
     positions = source.column("kw.crosscomp.table[i].setpoint", count, gear=master_gear)
     corrections = source.column("kw.crosscomp.table[i].correction", count, gear=slave_gear)
-    if not source.ascending(positions, "kw.crosscomp.table[i].setpoint", "70245"):
+    if not source.ascending(positions, "kw.crosscomp.table[i].setpoint", "70245", "kw.crosscomp.last_index"):
         return None
     return Cross(
         master=master.number,

@@ -64,10 +64,10 @@ def _read_tests(source: CompensationList) -> Crosstalk | None:
     values = source.values
     mode = values.integer("kw.crosstalk.mode")
     acceleration, deceleration = (values.converted(f"kw.crosstalk.{sign}celeration") for sign in ("ac", "de"))
-    for name, usable in (("acceleration", acceleration > 0.0), ("deceleration", deceleration < 0.0)):
+    for kind, sign, usable in (("ac", "above", acceleration > 0.0), ("de", "below", deceleration < 0.0)):
         if not usable:
-            message = f"kw.crosstalk.{name} is missing; the compensation stays off."
-            source.note("AXC-ACCELERATION", f"kw.crosstalk.{name}", message)
+            name = f"kw.crosstalk.{kind}celeration"
+            source.note("AXC-ACCELERATION", name, f"{name} is needed and must be {sign} 0; the compensation stays off.")
             return None
     tests = _tests(source, mode)
     if tests is None:
@@ -146,7 +146,7 @@ def _read_curve(source: CompensationList) -> CrosstalkCurve | None:
     count = values.integer("kw.crosstalk.last_index") + 1
     accelerations = source.column(_OLD[0], count)
     corrections = source.column(_OLD[1], count)
-    if not source.ascending(accelerations, _OLD[0], "AXC-ORDER"):
+    if not source.ascending(accelerations, _OLD[0], "AXC-ORDER", "kw.crosstalk.last_index"):
         return None
     at_rest = _interpolate(accelerations, corrections, 0.0)
     if at_rest != 0.0:

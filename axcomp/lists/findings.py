@@ -7,6 +7,9 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+_NAME_MAX = 80
+"""Characters of a parameter that are shown at most: that of many columns at once can be long."""
+
 
 class Severity(enum.Enum):
     """How much a finding matters; the order of the members is the order of the matter."""
@@ -44,8 +47,10 @@ class Finding:
     message: str
 
     def __str__(self) -> str:
-        """``file:line: severity code: sentence``, as compilers write it."""
-        return f"{self.file}:{self.line}: {self.severity.value} {self.code}: {self.message}"
+        """``file:line: severity code: sentence``, as compilers write it; in brackets the entry the sentence omits."""
+        told = not self.parameter or self.parameter in self.message or len(self.parameter) > _NAME_MAX
+        entry = "" if told else f" [{self.parameter}]"
+        return f"{self.file}:{self.line}: {self.severity.value} {self.code}: {self.message}{entry}"
 
 
 class ListError(Exception):

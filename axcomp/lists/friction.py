@@ -26,7 +26,7 @@ def read_friction(source: CompensationList) -> Friction | None:
         return None
     velocities = source.column("frict_comp.table[i].in", count)
     currents = source.column("frict_comp.table[i].out", count)
-    if not source.ascending(velocities, "frict_comp.table[i].in", "110591"):
+    if not source.ascending(velocities, "frict_comp.table[i].in", "110591", "frict_comp.table_entries"):
         return None
     if velocities[0] < 0.0:
         message = f"A velocity of the table is negative: {velocities[0]:g}; the compensation stays off."

@@ -37,7 +37,7 @@ def read_leadscrew(source: CompensationList) -> Leadscrew | None:
     negative = source.column("kw.ssfk.table[i].neg", count, gear=gear) if values.flag("kw.ssfk.bilateral") else None
     if negative is None:
         source.note_unused("kw.ssfk.table[i].neg", "kw.ssfk.bilateral is 0")
-    if not source.ascending(positions, points_name, "AXC-ORDER"):
+    if not source.ascending(positions, points_name, "AXC-ORDER", "kw.ssfk.kw_nr_max"):
         return None
     modulo = values.flag("kw.ssfk.modulo")
     if modulo and source.axis.modulo is None:

@@ -1,6 +1,7 @@
 """Every finding there is, provoked by a list, and what the machine is then."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import takewhile
 
 import pytest
@@ -42,6 +43,32 @@ def test_lists_provoke_a_finding_at_its_place_and_the_rest_keeps_working(case: C
     assert (None if axis is None else tuple(kind for kind, _ in axis.compensations())) == (
         case.kinds if case.kinds or axis is not None else None
     )
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.code)
+def test_a_printed_finding_names_the_entry(case: Case, read_lists: ReadLists) -> None:
+    for finding in read_lists(case.files).findings:
+        assert finding.parameter in str(finding)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (FRICTION.replace("in 2000", "in 500"), "frict_comp.table[1].in = 500 is not above the entry before it, 1000;"),
+        (CROSS.replace("last_index 1", "last_index 2"), "(is kw.crosscomp.last_index = 2 too large?)"),
+        (
+            CROSSTALK.replace("deceleration -1000", "deceleration 0") + places((0, 0)),
+            "deceleration is needed and must",
+        ),
+        (
+            f"kw.ssfk.max_points 2\n{LEADSCREW}",
+            "By kw.ssfk.kw_nr_max the table has 3 entries, but there is room for 2;",
+        ),
+    ],
+)
+def test_errors_speak_in_the_numbers_of_the_list(text: str, sentence: str, read_lists: ReadLists) -> None:
+    findings = read_lists({"achskw1.lis": text}).findings
+    assert [sentence in finding.message for finding in findings if finding.severity is Severity.ERROR] == [True]
 
 
 def test_every_code_is_provoked() -> None:
@@ -98,8 +125,10 @@ def test_findings_come_file_by_file_in_the_order_of_the_lines() -> None:
 
 
 def test_a_finding_reads_like_a_compilers() -> None:
-    finding = Finding(Severity.WARNING, "achskw1.lis", 3, "kw.ssfk.unit", "AXC-VALUE", "Something.")
-    assert str(finding) == "achskw1.lis:3: warning AXC-VALUE: Something."
+    finding = Finding(Severity.WARNING, "achskw1.lis", 3, "kw.ssfk.unit", "AXC-VALUE", "kw.ssfk.unit is odd.")
+    assert str(finding) == "achskw1.lis:3: warning AXC-VALUE: kw.ssfk.unit is odd."
+    without_entry = replace(finding, message="Something.")
+    assert str(without_entry) == "achskw1.lis:3: warning AXC-VALUE: Something. [kw.ssfk.unit]"
 
 
 @pytest.mark.parametrize(
