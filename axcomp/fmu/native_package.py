@@ -18,7 +18,17 @@ from .content import NAME, Built, Content, output_path, read_content
 from .description import model_description
 from .variables import Naming
 
-SOURCES = ("fmu.c", "image.c", "instance.c", "kernel.c", "model_exchange.c", "places.c", "resource.c")
+SOURCES = (
+    "fmu.c",
+    "image.c",
+    "instance.c",
+    "kernel.c",
+    "model_exchange.c",
+    "places.c",
+    "resource.c",
+    "states.c",
+    "values.c",
+)
 HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "places.h", "resource.h")
 """Of the library, in ``fmu_src/native``; with them goes ``config.h``, which is another one in an FMU."""
 

@@ -243,3 +243,27 @@ void axcomp_free_instance(Instance *instance)
     free(instance->name);
     free(instance);
 }
+
+/* The instance, if this call is allowed in its phase; else NULL, after telling the host. */
+Instance *axcomp_allowed(fmi2Component component, unsigned phases, const char *function)
+{
+    Instance *instance = (Instance *)component;
+    if (instance == NULL) {
+        return NULL;
+    }
+    if ((instance->memory.phase & phases) == 0) {
+        axcomp_say(instance, fmi2Error, "%s must not be called now", function);
+        return NULL;
+    }
+    return instance;
+}
+
+/* The instance, if a pointer that this call needs is there; else NULL, after telling the host. */
+Instance *axcomp_given(Instance *instance, const void *pointer, const char *function)
+{
+    if (instance != NULL && pointer == NULL) {
+        axcomp_say(instance, fmi2Error, "%s: an argument is NULL", function);
+        return NULL;
+    }
+    return instance;
+}

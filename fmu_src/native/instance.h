@@ -81,6 +81,12 @@ bool axcomp_cycle_time_fits(double cycle_time);
 /* Free everything. */
 void axcomp_free_instance(Instance *instance);
 
+/* The instance, if a call is allowed in its phase; else NULL, after telling the host. */
+Instance *axcomp_allowed(fmi2Component component, unsigned phases, const char *function);
+
+/* The instance, if a pointer that a call needs is there; else NULL, after telling the host. */
+Instance *axcomp_given(Instance *instance, const void *pointer, const char *function);
+
 #ifdef __cplusplus
 }
 #endif

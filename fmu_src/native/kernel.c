@@ -2116,6 +2116,10 @@ static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers)
     if (!(table->interval1 > 0.0 && table->interval2 > 0.0 && table->points1 > 0 && table->points2 > 0)) {
         return false;
     }
+    /* not finite: a cell would be any number */
+    if (table->start1 - table->start1 != 0.0 || table->start2 - table->start2 != 0.0) {
+        return false;
+    }
     if (table->points1 > int_floor_div(numbers, table->points2)) {
         return false;
     }
