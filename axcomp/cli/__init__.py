@@ -23,6 +23,7 @@ COMMANDS = (
     "show",
     "sweep",
     "budget",
+    "report",
     "diagnose",
 )
 """Each is a module with ``add_subparser(subparsers)``, which sets ``do``: a function of the options → exit status."""

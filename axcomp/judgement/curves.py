@@ -129,6 +129,11 @@ def table_name(axis: Axis, kind: str, over: Axis) -> str:
     return f"the {kind} table of {axis.name}{where}"
 
 
+def rate(value: float) -> str:
+    """Return a velocity or an acceleration in words: four digits, never with an exponent where it is large."""
+    return f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.4g}"
+
+
 def unit_of(axis: Axis) -> str:
     """Return the unit of an axis' positions as sentences have it."""
     return "mm" if axis.unit == "mm" else "°"

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..lists.findings import Findings
 from ..machine import Axis, Machine
-from .curves import PER_MILLE, PLANE_ENTRY, Array, curves_of, grids_of, thousandth_of, unit_of
+from .curves import PER_MILLE, PLANE_ENTRY, Array, curves_of, grids_of, rate, thousandth_of, unit_of
 from .places import ListPlaces
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class DynamicsResult:
     intervals : array, shape (n, 2)
         Begin and end of the intervals, mm or °.
     slopes : array, shape (n,)
-        Of what is added in each interval, in absolute terms the largest of several rows or directions, with its sign.
+        Of what is added in each interval; of several rows or directions the size of the largest.
     kinks : array, shape (n − 1,) or (n,)
         Largest change of the slope between one interval and the next.
     kinks_at : array, shape as kinks
@@ -247,7 +247,7 @@ def _shape(x: Array, rows: Array, repeats: bool) -> tuple[Array, Array, Array, A
         kinks = np.concatenate([np.abs(slopes[:, :1]), inner, np.abs(slopes[:, -1:])], axis=1)
         places = x
         distances = np.concatenate([[np.inf], distance, [np.inf]])
-    largest = slopes[np.abs(slopes).argmax(axis=0), np.arange(len(widths))]
+    largest = slopes[0] if len(slopes) == 1 else np.abs(slopes).max(axis=0)
     kink = kinks.max(axis=0)
     return np.column_stack([x[:-1], x[1:]]), largest, kink, places, kink / distances
 
@@ -265,14 +265,14 @@ def judge_dynamics(machine: Machine, demand: Demand, places: ListPlaces, finding
             own = demand.of(demand.feed, name, 0.0)
             if own + result.added_velocity > velocity_limit:
                 message = (
-                    f"{size} adds {result.added_velocity:.3g} {unit}/s to the {own:g} {unit}/s of {name}: that is "
+                    f"{size} adds {rate(result.added_velocity)} {unit}/s to the {own:g} {unit}/s of {name}: that is "
                     f"above its {velocity_limit:g} {unit}/s."
                 )
                 findings.add("AXC-DYNAMICS-VELOCITY", *place, message)
             if result.added_acceleration > acceleration_limit:
                 at = f"{result.kinks_at[result.sharpest]:g} {unit_of(result.over)}"
                 message = (
-                    f"The kink at {at} of {result.name} asks {name} for {result.added_acceleration:.4g} {unit}/s² "
+                    f"The kink at {at} of {result.name} asks {name} for {rate(result.added_acceleration)} {unit}/s² "
                     f"within a cycle, above its {acceleration_limit:g} {unit}/s²."
                 )
                 findings.add("AXC-DYNAMICS-KINK", *place, message)
@@ -287,7 +287,7 @@ def judge_dynamics(machine: Machine, demand: Demand, places: ListPlaces, finding
             ),
         ):
             above = [
-                f"{value:.4g} {per}, above its {limit:g} {per}"
+                f"{rate(value)} {per}, above its {limit:g} {per}"
                 for value, limit, per in (
                     (velocity, velocity_limit, f"{unit}/s"),
                     (acceleration, acceleration_limit, f"{unit}/s²"),
@@ -309,7 +309,8 @@ def _asks(result: DynamicsResult) -> str:
     at = f"{result.kinks_at[result.sharpest]:g} {over}"
     thousandth = thousandth_of(result.axis)
     return (
-        f"adds up to {result.added_velocity:.3g} {unit}/s at {result.feed:g} {over}/s ({slope:.3g} "
-        f"{thousandth}/{over} at {low:g} … {high:g} {over}) and, at the kink at {at}, {result.added_acceleration:.4g} "
-        f"{unit}/s² within a cycle; its curvature without kinks would add {result.smooth_acceleration:.3g} {unit}/s²"
+        f"adds up to {rate(result.added_velocity)} {unit}/s at {result.feed:g} {over}/s ({slope:.3g} "
+        f"{thousandth}/{over} at {low:g} … {high:g} {over}) and, at the kink at {at}, "
+        f"{rate(result.added_acceleration)} {unit}/s² within a cycle; its curvature without kinks would add "
+        f"{rate(result.smooth_acceleration)} {unit}/s²"
     )

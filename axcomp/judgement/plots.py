@@ -55,6 +55,7 @@ def plot_dynamics(result: DynamicsResult, ax: Axes | None = None) -> Axes:
 
         second = ax.secondary_yaxis("right", functions=(to_velocity, to_slope))
         second.set_ylabel(f"added velocity at {result.feed:g} {over}/s [{unit}/s]", fontsize=11)
+    ax.set_axisbelow(True)
     label = f"slope [{thousandth_of(result.axis)}/{over}]"
     title = f"{result.name[0].upper()}{result.name[1:]}: slope"
     return labelled(ax, title, f"position of {result.over.name} [{over}]", label)

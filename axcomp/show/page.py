@@ -6,6 +6,8 @@ from base64 import b64encode
 from collections.abc import Sequence
 from html import escape
 
+from matplotlib.figure import Figure
+
 from .content import Cell, Content, Records
 from .style import png, printed
 
@@ -16,11 +18,15 @@ _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1d2327; max-width: 1240px; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.6rem; }
 h2 { font-size: 1.2rem; margin-top: 2.5rem; border-top: 1px solid #d5dadd; padding-top: 1rem; }
+h3 { font-size: 1.05rem; margin-top: 1.8rem; }
 img { width: 100%; height: auto; max-width: 1200px; } nav { columns: 3 16rem; } nav ul { margin: 0; }
 table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; margin: 0.5rem 0; }
 th, td { padding: 0.15rem 0.8rem; text-align: right; border-bottom: 1px solid #e4e8ea; }
 th:first-child, td:first-child { text-align: left; } th { background: #f3f5f6; }
+.text th, .text td { text-align: left; vertical-align: top; } .text td:nth-child(-n+3) { white-space: nowrap; }
 summary { cursor: pointer; } .wide { overflow-x: auto; } .note { color: #6b4a00; }
+.error { color: #a11212; font-weight: 600; } .warning { color: #6b4a00; font-weight: 600; } .info { color: #4b5560; }
+@media print { nav { display: none; } section { break-inside: avoid; } }
 """
 
 
@@ -29,29 +35,40 @@ def page(title: str, contents: Sequence[Content], notes: Sequence[str] = ()) -> 
     sections = "\n".join(section(content) for content in contents)
     links = "".join(f'<li><a href="#{_id(one)}">{escape(one.subject.title)}</a></li>' for one in contents)
     remarks = "".join(f'<p class="note">{escape(note)}</p>' for note in notes)
+    body = f"""{remarks}
+<nav><ul>{links}</ul></nav>
+<div class="wide">{table(overview(contents))}</div>
+{sections}"""
+    return document(title, body)
+
+
+def document(title: str, body: str) -> str:
+    """Return a page with a heading and what stands below it, as HTML; it needs nothing beside it and no script."""
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <link rel="icon" href="data:,"><title>{escape(title)}</title><style>{_STYLE}</style></head>
 <body>
 <h1>{escape(title)}</h1>
-{remarks}
-<nav><ul>{links}</ul></nav>
-<div class="wide">{table(overview(contents))}</div>
-{sections}
+{body}
 </body>
 </html>
 """
 
 
-def section(content: Content) -> str:
+def section(content: Content, heading: str = "h2") -> str:
     """Return one content: heading, picture, and its numbers to unfold."""
-    title = escape(content.subject.title)
-    picture = b64encode(png(content.figure())).decode()
+    title = content.subject.title
     shown = content.extract(ROWS_SHOWN)
-    return f"""<section id="{_id(content)}"><h2>{title}</h2>
-<img alt="{title}" src="data:image/png;base64,{picture}">
+    return f"""<section id="{_id(content)}"><{heading}>{escape(title)}</{heading}>
+{picture(title, content.figure())}
 <details><summary>Numbers</summary><div class="wide">{table(shown)}</div></details></section>"""
+
+
+def picture(title: str, figure: Figure) -> str:
+    """Return a figure as an embedded picture."""
+    data = b64encode(png(figure)).decode()
+    return f'<img alt="{escape(title, quote=True)}" src="data:image/png;base64,{data}">'
 
 
 def overview(contents: Sequence[Content]) -> Records:

@@ -1,0 +1,1 @@
+"""The report: everything there is to say about a machine's compensations on one page."""
