@@ -15,7 +15,7 @@ from ..fmu.native_package import NoCompilerError, package_native, write_image
 from ..fmu.package import package_axcomp, package_plant
 from ..lists import Reading
 from ..native.compiler import PLATFORMS
-from ..places import models
+from ..places import machine_path, models
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -26,6 +26,8 @@ serves the machine itself; with the compiler of axcomp[cross] all platforms can 
 --runtime python needs no compiler, but Python in the host.
 
 --image writes the tables of the lists, which a running native FMU takes by its input reload.
+
+A diagnosis file that a volumetric list names is written too, as axcomp diagnose does.
 
 examples:
   axcomp build
@@ -46,7 +48,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--machine", type=Path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
+        "--machine", type=machine_path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
     )
     outputs = parser.add_mutually_exclusive_group()
     outputs.add_argument("--output", type=Path, metavar="FILE", help="default: axcomp.fmu in the current folder")

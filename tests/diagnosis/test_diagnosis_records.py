@@ -59,13 +59,14 @@ def test_records_that_do_not_count_say_why(tmp_path: Path) -> None:
 
 
 def test_records_of_a_polyline_stay_in_its_order(tmp_path: Path) -> None:
-    csv = "Y X EXX\n5 9 0.1\n1 0 0.2\n1 0 0.25\n5 9 0.1\n"
+    csv = "Y X EXX\n5 9 0.1\n1 0 0.2\n1 0 0.25\n5 9 0.1\n5 9 0.3\n"
     (file,) = diagnosis_of(write_lists(tmp_path, "file[0] e.csv", "interpolation PATH_XY", e_csv=csv)).files
     assert short(file.records) == [
         ("EXX", (9, 5), 0.1, 2, ""),
         ("EXX", (0, 1), 0.2, 3, "replaced by e.csv:4"),
         ("EXX", (0, 1), 0.25, 4, ""),
-        ("EXX", (9, 5), 0.1, 5, ""),
+        ("EXX", (9, 5), 0.1, 5, "replaced by e.csv:6"),
+        ("EXX", (9, 5), 0.3, 6, ""),
     ]
 
 
