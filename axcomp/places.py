@@ -20,6 +20,15 @@ def models() -> Path:
     return _companion("models")
 
 
+def machine_path(text: str) -> Path:
+    """Return the path of a machine; ``models/NAME`` and ``NAME`` name an example where nothing else has that path."""
+    path = Path(text)
+    if path in (Path(path.name), Path("models", path.name)) and path.name and not path.exists():
+        example = models() / path.name
+        return example if example.is_dir() else path
+    return path
+
+
 def _companion(name: str) -> Path:
     installed = _PACKAGE / f"_{name}"
     return installed if installed.is_dir() else _PACKAGE.parent / name

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..judgement import Judgement
 from ..lists import Reading, Severity, read_machine
+from ..places import machine_path
 from .judgement_options import add_judgement_options, evidence_of, judgement_of
 
 STATUS_MAX = 100
@@ -39,7 +40,10 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "path", metavar="PATH", help="a hochlauf.lis, a folder with one or with achskw*.lis, or a single achskw*.lis"
+        "path",
+        type=machine_path,
+        metavar="PATH",
+        help="a hochlauf.lis, a folder with one or with achskw*.lis, or a single achskw*.lis",
     )
     parser.add_argument("--format", choices=("text", "json"), default="text", help="what to print (default: text)")
     add_judgement_options(parser)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from ..compile import CYCLE_TIME
-from ..places import models
+from ..places import machine_path, models
 
 PICTURE = "demo.png"
 
@@ -37,7 +37,10 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--machine", type=Path, metavar="PATH", help="hochlauf.lis or its folder, with a plant.json beside it"
+        "--machine",
+        type=machine_path,
+        metavar="PATH",
+        help="hochlauf.lis or its folder, with a plant.json beside it, or the name of an example: five_axis",
     )
     parser.add_argument(
         "--output", type=Path, default=Path(), metavar="DIR", help=f"for the FMUs and {PICTURE} (default: here)"
