@@ -78,7 +78,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
     if fault:
         print(f"axcomp sweep: {fault}", file=sys.stderr)
         return 1
-    from ..sweep.spec import ERROR, RUN, read_spec  # noqa: PLC0415 - these need the extra "workbench"
+    from ..sweep.spec import ERROR, FINDINGS, RUN, read_spec  # noqa: PLC0415 - these need the extra "workbench"
     from ..sweep.sweep import job_of, run_sweep  # noqa: PLC0415
 
     spec = read_spec(args.spec)
@@ -107,6 +107,10 @@ def _do_sweep(args: argparse.Namespace) -> int:
         print(sweep.table.to_json(orient="records", indent=2, force_ascii=False, double_precision=15))
     else:
         _print(args.output, sweep.table, sweep.taken_over)
+    news = sweep.table[sweep.table[FINDINGS] != ""]
+    for number, text in list(zip(news[RUN], news[FINDINGS], strict=True))[:ERRORS_SHOWN]:
+        for finding in text.split("\n"):
+            print(f"run {number}: {finding}", file=sys.stderr)
     failed = sweep.failed
     for number, error in list(zip(failed[RUN], failed[ERROR], strict=True))[:ERRORS_SHOWN]:
         print(f"axcomp sweep: run {number}: {error}", file=sys.stderr)
@@ -132,10 +136,15 @@ def _print(output: Path, table: object, taken_over: int) -> None:
     import pandas as pd  # noqa: PLC0415
 
     from ..measurement import terminal  # noqa: PLC0415
+    from ..sweep.spec import ERROR, FINDINGS  # noqa: PLC0415
 
     assert isinstance(table, pd.DataFrame)
-    shown = table.drop(columns=[name for name in ("findings", "error") if (table[name] == "").all()]).head(ROWS_SHOWN)
-    rows = [[f"{v:.6g}" if isinstance(v, float) else str(v) for v in row] for row in shown.itertuples(index=False)]
+    # Texts have no room in a table.
+    shown = table.drop(columns=[FINDINGS, ERROR]).head(ROWS_SHOWN)
+    rows = [
+        ["–" if pd.isna(v) else f"{v:.6g}" if isinstance(v, float) else str(v) for v in row]
+        for row in shown.itertuples(index=False)
+    ]
     before = f", {taken_over} of them from before" if taken_over else ""
     more = f" (the first {ROWS_SHOWN})" if len(table) > ROWS_SHOWN else ""
     terminal.console().print(

@@ -10,6 +10,7 @@ import shutil
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -91,7 +92,8 @@ def perform(job: Job, run: Run) -> Row:
         for name, reduction in job.results.items():
             unknown = [variable for variable in reduction.names if variable not in values]
             if unknown:
-                raise ValueError(f"{name}: there is no variable {unknown[0]}; there are {', '.join(values)}")
+                close = get_close_matches(unknown[0], values, 5, 0.5) or values
+                raise ValueError(f"{name}: there is no variable {unknown[0]} in this run; there are {', '.join(close)}")
             try:
                 row[name] = reduction.of(values, cycle_time)
             except ValueError as error:

@@ -70,7 +70,7 @@ def test_a_bad_run_has_its_error_in_its_row_and_stops_no_other(tmp_path: Path) -
     assert errors[0] == "at: at 0.5 s: the run ends at 0.099 s"
     assert errors[1] == ""
     assert errors[2].startswith("Q.setpoint is no input; the inputs are reset")
-    assert errors[5].startswith("at: there is no variable Y.leadscrew.correction; there are")
+    assert errors[5].startswith("at: there is no variable Y.leadscrew.correction in this run; there are ")
 
 
 def test_what_a_change_gives_rise_to_stands_in_the_row(tmp_path: Path) -> None:
