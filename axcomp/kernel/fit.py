@@ -72,6 +72,10 @@ def plane_fits(table: PlaneTable, axes: int, numbers: int) -> bool:
         return False
     if not (table.interval1 > 0.0 and table.interval2 > 0.0 and table.points1 > 0 and table.points2 > 0):
         return False
+    if (
+        table.start1 - table.start1 != 0.0 or table.start2 - table.start2 != 0.0
+    ):  # not finite: a cell would be any number
+        return False
     if table.points1 > numbers // table.points2:
         return False
     return range_fits(table.values, table.points1 * table.points2, numbers)
