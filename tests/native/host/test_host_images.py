@@ -18,8 +18,10 @@ from axcomp.bench.machines import machine_of
 from axcomp.compile import compile_tables
 from axcomp.fmu.variable import BLOCK
 from axcomp.kernel.records import ERROR_UPDATE
+from axcomp.lists import read_machine
 from axcomp.machine import Leadscrew, Machine
 from axcomp.native.image import image_of
+from axcomp.places import models
 
 GUID = "{3b2f6c1e-0000-4000-8000-00000000beef}"
 MACHINE = machine_of(3, 12)
@@ -156,7 +158,7 @@ def scrambled(good: bytes, count: int, seed: int) -> Iterable[bytes]:
     for _ in range(count):
         data = bytearray(good)
         for _ in range(source.randint(1, 3)):
-            place = 72 + 4 * source.randrange(min(records, 400))
+            place = 72 + 4 * source.randrange(min(records, source.choice([400, 4000])))
             value = source.choice(
                 [0, 1, 2, 7, 255, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0x7FF80000, source.getrandbits(32)]
             )
@@ -189,8 +191,10 @@ def test_forged_images_do_no_harm(host: Callable[[str], Program], way: str, reso
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2, 12))
-def test_many_forged_images_do_no_harm(host: Callable[[str], Program], seed: int, resources: Path) -> None:
-    run_scrambled(host("forged"), resources, 300, seed, MACHINE)
+@pytest.mark.parametrize("name", ["three_axis", "five_axis", ""])
+def test_many_forged_images_do_no_harm(host: Callable[[str], Program], seed: int, name: str, resources: Path) -> None:
+    machine = read_machine(models() / name).machine if name else MACHINE
+    run_scrambled(host("forged"), resources, 100, seed, machine)
 
 
 def moved(slot: int, at: float, position: float) -> list[str]:

@@ -217,29 +217,28 @@ class Walk:
     def _word(value: float | int | bool) -> str:
         return bits(value) if isinstance(value, float) else str(int(value))
 
-    def wrong_variable(self, slot: int, _: Expected) -> None:
+    def wrong_variable(self, slot: int, it: Expected) -> None:
         """Outputs cannot be set; there is no such reference; it has another type."""
         output, given = BLOCK + 8, BLOCK
-        self.say(
-            self.source.choice(
-                [
-                    f"set {slot} r {output} {bits(1.0)}",
-                    f"set {slot} r {BLOCK * (1 + AXES)} {bits(1.0)}",
-                    f"set {slot} r 4294967295 {bits(1.0)}",
-                    f"set {slot} b {given} 1",
-                    f"set {slot} s {given} text",
-                    f"set {slot} i {given} 1",
-                    f"set {slot} s 3 -",
-                    f"get {slot} b {given}",
-                    f"get {slot} i {output}",
-                    f"get {slot} s {output}",
-                    f"get {slot} r 63",
-                    f"get {slot} r {BLOCK * 40}",
-                    f"get {slot} r 4294967295",
-                ]
-            ),
-            ERROR,
-        )
+        lines = [
+            f"set {slot} r {output} {bits(1.0)}",
+            f"set {slot} r {BLOCK * (1 + AXES)} {bits(1.0)}",
+            f"set {slot} r 4294967295 {bits(1.0)}",
+            f"set {slot} b {given} 1",
+            f"set {slot} s {given} text",
+            f"set {slot} i {given} 1",
+            f"set {slot} s 3 -",
+            f"get {slot} b {given}",
+            f"get {slot} i {output}",
+            f"get {slot} s {output}",
+            f"get {slot} r 63",
+            f"get {slot} r {BLOCK * 40}",
+            f"get {slot} r 4294967295",
+        ]
+        line = self.source.choice(lines)
+        self.say(line, ERROR)
+        if it.phase == "init" and line.startswith("get"):  # asking for a value computes them all
+            it.runtime.begin(it.runtime.start_time)
 
     def nulls(self, slot: int, _: Expected) -> None:
         self.say(f"nulls {slot}", 1)
