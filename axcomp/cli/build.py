@@ -147,6 +147,8 @@ def _summary(built: Built) -> Iterator[str]:
     """Say what the file holds, axis by axis."""
     count = {causality: sum(v.causality == causality for v in built.variables) for causality in ("input", "output")}
     yield f"{built.path.name}: {count['input']} inputs, {count['output']} outputs"
+    volumetric = built.machine.volumetric
     for axis in built.machine.axes:
-        kinds = ", ".join(kind for kind, _ in axis.compensations()) or "no compensation"
-        yield f"  {axis.name}: {kinds}"
+        kinds = [kind for kind, _ in axis.compensations()]
+        kinds += [f"volumetric[{one.index}]" for one in volumetric if axis.number in dict(one.axes).values()]
+        yield f"  {axis.name}: {', '.join(kinds) or 'no compensation'}"

@@ -94,5 +94,9 @@ def _as_json(reading: Reading, counts: dict[Severity, int], judgement: Judgement
             }
             for axis in reading.machine.axes
         ],
+        "volumetric": [
+            {"index": one.index, "chain": one.chain, "axes": dict(one.axes), "errors": len(one.errors)}
+            for one in reading.machine.volumetric
+        ],
         "judgement": judgement.to_dict(),
     }

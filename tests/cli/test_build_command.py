@@ -16,6 +16,7 @@ from axcomp.lists import write_machine
 from axcomp.machine import Axis, Leadscrew, Machine
 from axcomp.native.compiler import own_platform
 from axcomp.native.image import MAGIC
+from axcomp.places import models
 
 ROOT = Path(__file__).parents[2]
 
@@ -54,6 +55,13 @@ def test_options_reach_the_fmu(lists: Path, tmp_path: Path, capsys: pytest.Captu
     assert [variable.start for variable in description.modelVariables if variable.name == "cycle_time"] == ["0.002"]
     assert capsys.readouterr().out.splitlines()[1:] == ["  X: leadscrew", "  Y: no compensation"]
     assert [path.name for path in output.parent.iterdir()] == ["mine.fmu"]
+
+
+def test_the_summary_names_volumetric_compensations(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["build", "--machine", str(models() / "five_axis"), "--image", str(tmp_path / "five.bin")]) == 0
+    _, x, *_, c = capsys.readouterr().out.splitlines()
+    assert x == "  X: volumetric[0], volumetric[1]"
+    assert c == "  C: volumetric[1]"
 
 
 def test_findings_are_shown_and_stop_nothing(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

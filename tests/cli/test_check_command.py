@@ -33,6 +33,14 @@ def test_volumetric_compensations_are_counted(capsys: Capture) -> None:
     assert summary.endswith("; 5 axes with 0 compensations and 2 volumetric compensations.")
 
 
+def test_volumetric_compensations_are_told_as_json(capsys: Capture) -> None:
+    main(["check", str(models() / "five_axis"), "--format", "json"])
+    first, second = json.loads(capsys.readouterr().out)["volumetric"]
+    assert (first["index"], first["chain"], first["axes"]) == (0, "YXZ", {"X": 1, "Y": 2, "Z": 3})
+    assert (second["index"], second["chain"], sorted(second["axes"])) == (1, "CBYXZ", list("BCXYZ"))
+    assert min(first["errors"], second["errors"]) > 0
+
+
 def test_findings_are_lines_with_file_and_line_and_the_status_counts_errors(lists: Path, capsys: Capture) -> None:
     path = lists / "achskw1.lis"
     path.write_text(path.read_text().replace("End", "kw.crosscomp.last_index 7"))
