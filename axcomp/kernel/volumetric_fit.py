@@ -45,6 +45,8 @@ def members_fit(table: VolumetricTable, axes: int) -> bool:
     for d in range(LETTERS):
         if not 0 <= table.axis[d] < axes:
             return False
+        if table.offset[d] - table.offset[d] != 0.0:  # not finite: no interpolation knows where the axis is
+            return False
     return True
 
 

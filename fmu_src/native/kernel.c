@@ -1953,6 +1953,9 @@ static bool members_fit(const VolumetricTable *table, int32_t axes)
         if (!(0 <= table->axis[d] && table->axis[d] < axes)) {
             return false;
         }
+        if (table->offset[d] - table->offset[d] != 0.0) {  /* not finite: no interpolation knows where the axis is */
+            return false;
+        }
     }
     return true;
 }
