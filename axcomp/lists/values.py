@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from .catalogue import SPELLINGS, parameter
-from .findings import Findings
+from .findings import CODES, Findings, Severity
 from .grammar import Entry, entries, number, string
 from .parameter import DataType, ListKind, Parameter, Value, key_of
 
@@ -222,11 +222,10 @@ class _ValueReader:
         """Check an entry and keep its value, or the default instead."""
         for index, limit in zip(entry.indices, column.index_max, strict=False):
             if index > limit:
-                self._note(
-                    column.parameter.index_code,
-                    entry,
-                    f"{entry.name}: the index goes to {limit} only; it is not taken.",
-                )
+                code = column.parameter.index_code
+                grave = self._values.kind is ListKind.VOLUMETRIC and CODES[code][0] is Severity.ERROR
+                what = "the compensation stays off" if grave else "it is not taken"
+                self._note(code, entry, f"{entry.name}: the index goes to {limit} only; {what}.")
                 return
         if entry.indices in column.cells:
             line = column.cells[entry.indices][1]

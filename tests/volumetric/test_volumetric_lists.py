@@ -243,6 +243,11 @@ def test_an_error_keeps_this_compensation_off_and_the_rest_of_the_machine_works(
         read_machine(tmp_path, strict=True)
 
 
+def test_a_file_too_many_is_said_to_keep_the_compensation_off(read: Callable[..., Reading]) -> None:
+    (finding,) = read(volumetric=["file[10] errors.csv"]).findings
+    assert finding.message == "file[10]: the index goes to 9 only; the compensation stays off."
+
+
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [
