@@ -92,7 +92,7 @@ OF_AXIS = (
     Declaration(9, "display_position", "output", 0.0, "Measured position without the corrections", POSITION),
     Declaration(10, "correction", "output", 0.0, "Sum of all corrections of the setpoint", POSITION),
     Declaration(11, "setpoint_shift", "output", 0.0, "Offset that keeps the setpoint continuous (no_move)", POSITION),
-    Declaration(12, "error", "output", 0, "0, or the number of an error that stays until reset"),
+    Declaration(12, "error", "output", 0, "0, or the number of an error: 901 as long as its cause, others until reset"),
     Declaration(13, "current", "output", 0.0, "Additional motor current, in the drive's own unit", kind="friction"),
     Declaration(14, "stop_request", "output", False, "The axis is to stop: s_limit was exceeded", kind=VOLUMETRIC),
     Declaration(15, "volumetric.correction", "output", 0.0, "Sum of all volumetric corrections", POSITION, VOLUMETRIC),
