@@ -31,6 +31,7 @@ def test_any_other_path_stays_as_it_is(text: str) -> None:
     assert machine_path(text) == Path(text)
 
 
-def test_the_example_of_a_commands_help_works(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["check", "models/three_axis"]) == 0
-    assert "3 axes" in capsys.readouterr().out
+@pytest.mark.parametrize("command", ["check", "show"])
+def test_the_example_of_a_commands_help_works(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "models/five_axis"]) == 0
+    assert capsys.readouterr().out

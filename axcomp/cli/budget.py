@@ -14,6 +14,7 @@ from ..budget.propagation import COVERAGE, PLACES, TRIALS, TcpUncertainty, tcp_u
 from ..budget.uncertainty import read_uncertainties
 from ..compile import CYCLE_TIME
 from ..lists import Severity, read_machine
+from ..places import machine_path
 from ..sweep.trajectory import read_input
 
 ROWS = 15
@@ -49,7 +50,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("path", type=Path, metavar="PATH", help="start-up list, folder, or one compensation list")
+    parser.add_argument(
+        "path", type=machine_path, metavar="PATH", help="start-up list, folder, or one compensation list"
+    )
     parser.add_argument("--input", type=Path, required=True, metavar="FILE", help="the path: inputs as CSV")
     parser.add_argument("--uncertainty", type=Path, metavar="FILE", help="how well errors are known, as CSV")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="waterfalls, and the uncertainty")

@@ -16,6 +16,7 @@ from ..convert.table import CannotHoldError, CompensationTable, FormatError
 from ..lists import Severity, read_machine, write_machine
 from ..lists.grammar import decode
 from ..machine import KINDS, Machine
+from ..places import machine_path
 
 _NAMES = (LISTS, *FORMATS)
 
@@ -43,7 +44,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("path", type=Path, metavar="PATH", help="lists of a machine, or a file of another controller")
+    parser.add_argument(
+        "path", type=machine_path, metavar="PATH", help="lists of a machine, or a file of another controller"
+    )
     parser.add_argument("--to", required=True, choices=_NAMES, metavar="FORMAT", help="one of the formats below")
     parser.add_argument("--from", dest="source", choices=_NAMES, metavar="FORMAT", help="default: by the content")
     parser.add_argument("--output", type=Path, metavar="FILE", help="file, or folder for lists; default: print it")

@@ -10,6 +10,7 @@ from ..diagnosis.files import Written, write_diagnoses
 from ..diagnosis.records import volumetric_lists
 from ..fmu.archive import BuildError
 from ..lists import Severity, read_machine
+from ..places import machine_path
 from ..volumetric import COMPENSATIONS_MAX
 
 _EPILOG = """\
@@ -35,7 +36,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("path", type=Path, metavar="PATH", help="a start-up list, or a folder with one")
+    parser.add_argument("path", type=machine_path, metavar="PATH", help="a start-up list, or a folder with one")
     parser.add_argument("--output", type=Path, metavar="FILE", help="default: what the list names")
     parser.add_argument("--id", type=int, choices=range(COMPENSATIONS_MAX), help="only this compensation; default: all")
     parser.set_defaults(do=_do_diagnose)

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from ..lists import read_machine
+from ..places import machine_path
 from ..report.report import REPEATS, make_report
 from .check import STATUS_MAX
 from .judgement_options import add_judgement_options, evidence_of
@@ -32,7 +33,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("path", metavar="PATH", help="start-up list, folder, or one compensation list")
+    parser.add_argument(
+        "path", type=machine_path, metavar="PATH", help="start-up list, folder, or one compensation list"
+    )
     parser.add_argument("--output", type=Path, default=Path("report.html"), metavar="FILE", help="default: report.html")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="of what is printed; default: text")
     parser.add_argument(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..compile import CYCLE_TIME
 from ..engine import COMMAND, Engine
 from ..nc import NcError
-from ..places import models
+from ..places import machine_path, models
 
 TIME = "time"
 _ON_TIME = 1e-6
@@ -58,7 +58,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     )
     parser.add_argument("program", type=Path, metavar="PROGRAM.csv", help="one row for each cycle")
     parser.add_argument(
-        "--machine", type=Path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
+        "--machine", type=machine_path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
     )
     parser.add_argument("--output", type=Path, metavar="FILE", help="CSV with the outputs; default: standard output")
     parser.add_argument(

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ..lists import Severity, read_machine
 from ..machine import KINDS, Machine
+from ..places import machine_path
 from ..show.content import Content, NotComparableError, Records
 from ..show.contents import contents_of
 from ..show.page import overview, page, shown
@@ -43,7 +44,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("path", type=Path, metavar="PATH", help="start-up list, folder, or one compensation list")
+    parser.add_argument(
+        "path", type=machine_path, metavar="PATH", help="start-up list, folder, or one compensation list"
+    )
     parser.add_argument("--axis", help="only the tables of this axis")
     parser.add_argument("--kind", choices=(*KINDS, VOLUMETRIC), help="only this kind")
     parser.add_argument("--output", type=Path, metavar="FILE", help="FILE.png, FILE.html or FILE.csv")
