@@ -37,8 +37,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
-    for command in _modules(given[:1]):
+    modules, missing = _modules(given[:1])
+    for command in modules:
         command.add_subparser(subparsers)
+    if missing:
+        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(missing)}."
     options = parser.parse_args(given)
     try:
         status: int = options.do(options)
@@ -52,25 +55,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ModuleNotFoundError as error:
         print(f"axcomp: {error.name} is missing; pip install 'axcomp[workbench]' installs it.", file=sys.stderr)
         return 1
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        print(f"axcomp: {place}{error.strerror or error}", file=sys.stderr)
+        return 1
+    except ValueError as error:
         print(f"axcomp: {error}", file=sys.stderr)
         return 1
     return status
 
 
-def _modules(wanted: Sequence[str]) -> list[ModuleType]:
-    """Import the command that is wanted, else all for the help: what one needs must not slow down the others."""
+def _modules(wanted: Sequence[str]) -> tuple[list[ModuleType], list[str]]:
+    """Import the command that is wanted, else all for the help: what one needs must not slow down the others.
+
+    The second list names the commands whose packages are not installed.
+    """
     named = [name for name in COMMANDS if name in wanted]
-    modules = []
+    modules, missing = [], []
     for name in named or COMMANDS:
         try:
             modules.append(import_module(f".{name}", __name__))
         except ModuleNotFoundError as error:
-            if error.name is None or error.name.startswith(__package__):
+            if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
                 raise
             if named:
-                raise SystemExit(f"axcomp: {name} needs {error.name}: pip install axcomp[workbench]") from None
-    return modules
+                raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
+            missing.append(name)
+    return modules, missing
 
 
 def _print_anything() -> None:

@@ -1,0 +1,38 @@
+"""``axcomp`` itself: help, missing packages, files that cannot be read."""
+
+from importlib import import_module
+from types import ModuleType
+
+import pytest
+
+from axcomp.cli import COMMANDS, main
+
+
+def test_the_help_lists_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        main(["--help"])
+    listed = capsys.readouterr().out.split()
+    assert all(command in listed for command in COMMANDS)
+
+
+def test_the_help_names_the_commands_that_a_missing_package_hides(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def importing(name: str, package: str) -> ModuleType:
+        if name == ".measure":
+            raise ModuleNotFoundError("No module named 'pandas'", name="pandas")
+        return import_module(name, package)
+
+    monkeypatch.setattr("axcomp.cli.import_module", importing)
+    with pytest.raises(SystemExit, match="0"):
+        main(["--help"])
+    assert "pip install 'axcomp[workbench]' there are also: measure." in " ".join(capsys.readouterr().out.split())
+    with pytest.raises(SystemExit, match="measure needs pandas"):
+        main(["measure", "--help"])
+
+
+def test_a_file_that_is_missing_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "no such program.csv"]) != 0
+    words = capsys.readouterr().err
+    assert "no such program.csv" in words
+    assert "Errno" not in words
