@@ -21,8 +21,8 @@ from .places import ListPlaces
 
 Indices = npt.NDArray[np.intp]
 
-POINTS_LEAST = 8
-"""Points a table needs for a median of distances that one outlier, which is in three of them, cannot move."""
+JUDGED_LEAST = 7
+"""Points that must have neighbours on both sides: an outlier is in three distances, which then cannot move the median."""
 SIGMAS = 6.0
 """Distance from the neighbours that makes an outlier, in standard deviations by the median."""
 SIGMA_OF_MEDIAN = 1.4826
@@ -73,8 +73,8 @@ def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
         y = np.concatenate([y[-2:], y, y[:2]])
     n = len(x)
     distance, score = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
-    if n - (4 if period is not None else 0) >= POINTS_LEAST:
-        at = np.arange(2, n - 2)
+    at = np.arange(2, n - 2)
+    if len(at) >= JUDGED_LEAST:
         lines = np.stack(
             [y[at] - _line(x, y, a, b, at) for a, b in ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))]
         )

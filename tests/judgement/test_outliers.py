@@ -19,7 +19,7 @@ WAVE = st.tuples(st.floats(0.0, 0.05), st.floats(8.0, 200.0), st.floats(0.0, 6.3
 @st.composite
 def clean(draw):
     """Draw a table as a good measurement leaves it: waves over at least eight points, a slope, rounded to 0.1 µm."""
-    n = draw(st.integers(9, 150))
+    n = draw(st.integers(11, 150))
     index = np.arange(n)
     values = draw(st.floats(-1e-3, 1e-3)) * index
     for amplitude, length, phase in draw(st.lists(WAVE, max_size=3)):
@@ -57,6 +57,13 @@ def test_an_injected_outlier_is_found_and_nothing_else(table, data) -> None:
     found = spikes(x, y)
     assert np.flatnonzero(found.found).tolist() == [at]
     assert found.distance[at] == pytest.approx(size, abs=least / 5)
+
+
+def test_the_shortest_table_that_is_judged_has_eleven_points() -> None:
+    x, y = 10.0 * np.arange(11.0), np.zeros(11)
+    y[3] = 0.008
+    assert np.flatnonzero(spikes(x, y).found).tolist() == [3]
+    assert not spikes(x[:-1], y[:-1]).found.any()
 
 
 @settings(max_examples=40)
