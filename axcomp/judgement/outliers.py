@@ -22,7 +22,7 @@ from .places import ListPlaces
 Indices = npt.NDArray[np.intp]
 
 JUDGED_LEAST = 7
-"""Points with neighbours on both sides that are needed: an outlier must not move the median, and is in three of them."""
+"""Points with neighbours on both sides that are needed: an outlier is in three distances of the median."""
 SIGMAS = 6.0
 """Distance from the neighbours that makes an outlier, in standard deviations by the median."""
 SIGMA_OF_MEDIAN = 1.4826
