@@ -1,12 +1,17 @@
 """The documentation names what is there, and nothing that must not be named."""
 
+import argparse
 import os
 import re
+import shlex
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
+
+from axcomp.cli import COMMANDS, main
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "models").glob("*/README.md")])
@@ -39,6 +44,36 @@ def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
             continue
         found = forbidden.search(path.read_text(encoding="utf-8", errors="replace"))
         assert found is None, f"{name}: {found.group() if found else ''}"
+
+
+def test_the_commands_on_the_pages_are_understood() -> None:
+    lines = [line for page in PAGES for line in re.findall(r"^ {4}axcomp (.+)", page.read_text("utf-8"), re.MULTILINE)]
+    shown = {line.split()[0] for line in lines}
+    assert shown >= {"show", "check", "measure", "create", "convert", "budget", "report", "sweep", "run"}
+    for line in lines:
+        parser = argparse.ArgumentParser(exit_on_error=False)
+        subparsers = parser.add_subparsers(required=True)
+        words = shlex.split(line)
+        assert words[0] in COMMANDS
+        import_module(f"axcomp.cli.{words[0]}").add_subparser(subparsers)
+        parser.parse_args(words)
+
+
+@pytest.mark.slow
+def test_the_sweep_and_the_program_on_the_page_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "models").symlink_to(ROOT / "models")
+    page = (ROOT / "docs" / "workbench.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    Path("sweep.toml").write_text(block, encoding="utf-8")
+    assert main(["sweep", "sweep.toml", "--output", "results.csv", "--workers", "1"]) == 0
+    assert len(Path("results.csv").read_text(encoding="utf-8").splitlines()) == 1 + 6
+    (program,) = re.findall(r"((?: {4}(?:time,X|0).+\n)+)", page)
+    Path("program.csv").write_text(program.replace(" " * 4, ""), encoding="utf-8")
+    assert main(["run", "program.csv", "--machine", "models/three_axis", "--output", "result.csv"]) == 0
+    assert "3 cycles" in capsys.readouterr().out
 
 
 @pytest.mark.slow

@@ -78,7 +78,7 @@ def _do_convert(args: argparse.Namespace) -> int:
     except FormatError as error:
         print(f"{args.path}:{error.line}: error: {error.message}", file=sys.stderr)
         return 1
-    except (CannotHoldError, OSError, ValueError) as error:
+    except (CannotHoldError, ValueError) as error:
         print(f"axcomp convert: {error}", file=sys.stderr)
         return 1
     # The converted file has standard output for itself where it goes there.

@@ -148,7 +148,7 @@ def _do_create(args: argparse.Namespace) -> int:
     except MeasurementError as error:
         print(error, file=sys.stderr)
         return 1
-    except (ValueError, OSError) as error:
+    except ValueError as error:
         print(f"axcomp create: {error}", file=sys.stderr)
         return 1
     if args.format == "json":

@@ -56,7 +56,7 @@ def _do_demo(args: argparse.Namespace) -> int:
     try:
         machine, results, note = demonstrate(args.machine or models() / "three_axis", args.output)
         draw(args.output / PICTURE, machine, results, CYCLE_TIME)
-    except (BuildError, DemoError, OSError) as error:
+    except (BuildError, DemoError) as error:
         print(f"axcomp demo: {error}", file=sys.stderr)
         return 1
     if note:

@@ -71,7 +71,11 @@ def _do_measure(args: argparse.Namespace) -> int:
         results = [evaluate(measurement, conditions) for measurement in measurements]
         if args.plot is not None and results:
             _plot(results, args.plot)
-    except (MeasurementError, ValueError, OSError) as error:
+    except OSError as error:
+        # The evaluation stands, whatever became of its picture.
+        print(f"axcomp measure: {error.filename}: {error.strerror}", file=sys.stderr)
+        errors += 1
+    except (MeasurementError, ValueError) as error:
         print(f"axcomp measure: {error}", file=sys.stderr)
         errors += 1
     if args.format == "json":

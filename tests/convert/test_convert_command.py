@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from axcomp.cli import convert
+from axcomp.cli import convert, main
 from axcomp.lists import read_machine, write_machine
 from axcomp.machine import Axis, Cross, Leadscrew, Machine, Plane
 
@@ -100,7 +100,8 @@ def test_a_file_of_no_format_is_refused(content: bytes, tmp_path: Path, capsys: 
     file.write_bytes(content)
     assert _run(file, "--to", "csv") == 1
     assert capsys.readouterr().err.startswith(f"{file}:0: error: ")
-    assert _run(tmp_path / "missing", "--to", "csv") == 1
+    assert main(["convert", str(tmp_path / "missing"), "--to", "csv"]) == 1
+    assert capsys.readouterr().err == f"axcomp: {tmp_path / 'missing'}: No such file or directory\n"
 
 
 def test_help_shows_an_example_and_every_format(capsys: pytest.CaptureFixture[str]) -> None:

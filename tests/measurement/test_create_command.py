@@ -74,7 +74,7 @@ NEW = ["--from", "x.csv", "--into", "a.lis", "--axis", "1"]
         (["leadscrew", *NEW[:4]], "a.lis: The list does not say which axis it is for"),
         (["leadscrew", *NEW, "--from", "none.csv"], "none.csv: The file cannot be read"),
         (["leadscrew", *NEW, "--into", "."], ".: The list cannot be read"),
-        (["leadscrew", *NEW, "--into", "no/a.lis"], "axcomp create: "),
+        (["leadscrew", *NEW, "--into", "no/a.lis"], "axcomp: no/a.lis: No such file"),
         (["leadscrew", *NEW, "--bound", "0.001"], "axcomp create: values are rounded"),
         (["leadscrew", *NEW, "--max-points", "1"], "axcomp create: a table has two entries at least"),
         (["leadscrew", *NEW, "--on-top"], "axcomp create: no leadscrew compensation of this axis acts"),

@@ -77,3 +77,4 @@ def test_what_cannot_be_done_is_said(measure, words):
     status, _, err = measure("x.csv", *words)
     assert status == 1
     assert err.startswith("axcomp measure: ")
+    assert "Errno" not in err
