@@ -21,7 +21,7 @@ from .fmu.variables import Naming, by_name, record_of, variables_of
 from .lists import Finding, read_machine
 from .machine import Machine
 from .native.library import compiled_kernel
-from .native.runner import run_compiled
+from .native.runner import CompiledTables, run_compiled
 from .nc import NcControl, NcError
 from .runtime import Runtime
 
@@ -115,6 +115,7 @@ class Engine:
             machine, self.findings = reading.machine, tuple(reading.findings)
         self.machine = machine
         self.runtime = Runtime(machine, cycle_time)
+        self._compiled: CompiledTables | None = None
         self.nc = NcControl(self.runtime, lists)
         self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._record(v) is not None)
         self._by_name = by_name(self.variables)
@@ -205,8 +206,10 @@ class Engine:
     def _run_compiled(
         self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
     ) -> dict[str, NDArray[Any]]:
+        if self._compiled is None or self._compiled.tables is not self.runtime.tables:
+            self._compiled = CompiledTables(self.runtime.tables)
         rows = np.column_stack([column.astype(np.float64) for column in columns])
-        results = run_compiled(kernel, self.runtime, given, np.ascontiguousarray(rows), self._outputs)
+        results = run_compiled(kernel, self._compiled, self.runtime, given, np.ascontiguousarray(rows), self._outputs)
         return {v.name: results[:, k].astype(type(v.start)) for k, v in enumerate(self._outputs)}
 
     def _run_in_python(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:

@@ -24,8 +24,37 @@ class _Field(ctypes.Structure):
     _fields_ = (("offset", ctypes.c_int32), ("type", ctypes.c_char))
 
 
+class CompiledTables:
+    """Tables as C has them; making them costs more than many cycles, so they are kept as long as they are in force.
+
+    Attributes
+    ----------
+    tables : Tables
+        What they were made of; the kernel never changes tables.
+    structure : ctypes.Structure
+        The same in C.
+    """
+
+    def __init__(self, tables: Tables) -> None:
+        self.tables = tables
+        self.structure: Any = ctypes_of(Tables)()
+        axes = tables.axis[: tables.axis_count]
+        bare = replace(tables, pool=[], axis=[replace(axis, pool=[]) for axis in axes])
+        to_c(replace(bare, volumetric=tables.volumetric[: tables.volumetrics]), self.structure)
+        # Axes mostly share one pool.
+        pools = (tables.pool, *(axis.pool for axis in axes))
+        self._pools = {id(pool): np.array(pool, dtype=np.float64) for pool in pools}
+        self.structure.pool = self._address(tables.pool)
+        for index, axis in enumerate(axes):
+            self.structure.axis[index].pool = self._address(axis.pool)
+
+    def _address(self, pool: list[float]) -> Any:
+        return self._pools[id(pool)].ctypes.data_as(DOUBLES)
+
+
 def run_compiled(
     kernel: ctypes.CDLL,
+    compiled: CompiledTables,
     runtime: Runtime,
     given: Sequence[Variable],
     rows: NDArray[np.float64],
@@ -37,6 +66,8 @@ def run_compiled(
     ----------
     kernel : CDLL
         From ``library.compiled_kernel``.
+    compiled : CompiledTables
+        Of the runtime's tables.
     runtime : Runtime
         Its state, inputs and outputs go into the kernel and come back.
     given : sequence of Variable
@@ -50,14 +81,13 @@ def run_compiled(
     -------
     ndarray, shape (n, len(results))
     """
-    tables, pools = _tables_in_c(runtime.tables)
     state, inputs, outputs = ctypes_of(State)(), ctypes_of(Inputs)(), ctypes_of(Outputs)()
     records = ((runtime.state, state), (runtime.inputs, inputs), (runtime.outputs, outputs))
     for record, struct in records:
         to_c(record, struct)
     values = np.empty((len(rows), len(results)))
     kernel.axcomp_run(
-        ctypes.byref(tables),
+        ctypes.byref(compiled.structure),
         ctypes.byref(state),
         ctypes.byref(inputs),
         ctypes.byref(outputs),
@@ -69,24 +99,10 @@ def run_compiled(
         ctypes.c_int32(len(results)),
         values.ctypes.data_as(DOUBLES),
     )
-    del pools
     for record, struct in records:
         from_c(struct, record)
     runtime.cycles += len(rows)
     return values
-
-
-def _tables_in_c(tables: Tables) -> tuple[Any, list[Any]]:
-    """Return the tables as a structure, and the pools that must live as long; axes mostly share one pool."""
-    structure = ctypes_of(Tables)()
-    axes = tables.axis[: tables.axis_count]
-    bare = replace(tables, pool=[], axis=[replace(axis, pool=[]) for axis in axes])
-    to_c(replace(bare, volumetric=tables.volumetric[: tables.volumetrics]), structure)
-    pools = {id(pool): np.array(pool, dtype=np.float64) for pool in (tables.pool, *(axis.pool for axis in axes))}
-    structure.pool = pools[id(tables.pool)].ctypes.data_as(DOUBLES)
-    for index, axis in enumerate(axes):
-        structure.axis[index].pool = pools[id(axis.pool)].ctypes.data_as(DOUBLES)
-    return structure, list(pools.values())
 
 
 def _fields(cls: Any, variables: Sequence[Variable]) -> Any:

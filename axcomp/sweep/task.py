@@ -5,7 +5,9 @@ A worker may be on another machine: it gets the lists themselves, not their path
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+import io
 import shutil
 import tempfile
 from collections.abc import Mapping
@@ -176,17 +178,19 @@ def _simulate_fmu(
     for name, column in given.items():
         rows[name] = column
     outputs = [v.name for v in variables if v.causality == "output" and v.type != "String"]
-    recorded = simulate_fmu(
-        folder,
-        model_description=description,
-        validate=False,
-        stop_time=cycles * cycle_time,
-        step_size=cycle_time,
-        output_interval=cycle_time,
-        input=rows,
-        output=outputs,
-        start_values=dict(starts),
-    )
+    # FMPy prints a line for every input that keeps its start value, in each run.
+    with contextlib.redirect_stdout(io.StringIO()):
+        recorded = simulate_fmu(
+            folder,
+            model_description=description,
+            validate=False,
+            stop_time=cycles * cycle_time,
+            step_size=cycle_time,
+            output_interval=cycle_time,
+            input=rows,
+            output=outputs,
+            start_values=dict(starts),
+        )
     # What is read after a step belongs to the inputs at its beginning: FMI 2.0 has no feedthrough inside a step.
     return {**given, **{name: recorded[name][1 : cycles + 1] for name in outputs}}, cycle_time, ""
 
