@@ -65,6 +65,9 @@ def _do_show(args: argparse.Namespace) -> int:
     notes: list[str] = []
     if args.against is not None:
         others, other_known = _contents(args.against, args)
+        if not other_known:
+            print(f"axcomp show: there is no axis in {args.against}", file=sys.stderr)
+            return 1
         known |= other_known
         contents, notes = _differences(contents, others)
     if not contents:

@@ -32,7 +32,9 @@ def plot_sweep(table: pd.DataFrame, varied: Sequence[str], x: str, y: str, ax: A
     groups = list(done.groupby(others, dropna=False, sort=False)) if others else [((), done)]
     for (values, group), (colour, marker) in zip(groups, line_styles(len(groups)), strict=True):
         ordered = group.sort_values(x)
-        label = ", ".join(f"{n} = {v}" for n, v in zip(others, values, strict=True))
+        label = ", ".join(
+            f"{n} = {v:g}" if isinstance(v, float) else f"{n} = {v}" for n, v in zip(others, values, strict=True)
+        )
         ax.plot(ordered[x], ordered[y], color=colour, marker=marker, ms=4, lw=1.2, label=label or None)
     if others and len(groups) <= LINES_NAMED:
         ax.legend(fontsize=9)

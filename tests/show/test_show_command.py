@@ -128,3 +128,12 @@ def test_help_shows_examples(capsys: pytest.CaptureFixture[str]) -> None:
         main(["show", "--help"])
     assert caught.value.code == 0
     assert "axcomp show models/three_axis --axis X --kind leadscrew --output x.png" in capsys.readouterr().out
+
+
+def test_another_machine_without_axes_is_one_sentence(
+    lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["show", str(lists), "--against", str(tmp_path / "nosuch")]) == 1
+    words = capsys.readouterr().err
+    assert "there is no axis in" in words
+    assert "the other machine has none" not in words
