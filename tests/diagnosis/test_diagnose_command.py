@@ -139,7 +139,7 @@ def test_a_missing_list_or_file_fails_and_the_rest_is_written(tmp_path: Path, ca
 
 @pytest.mark.usefixtures("hidden")
 def test_without_openpyxl_a_sentence_says_what_to_install(tmp_path: Path, capsys: Capture) -> None:
-    with pytest.raises(SystemExit, match=r"diagnose needs openpyxl: pip install axcomp\[workbench\]"):
+    with pytest.raises(SystemExit, match=r"diagnose needs openpyxl: pip install 'axcomp\[workbench\]'"):
         main(["diagnose", str(lists_naming(tmp_path, "d.xlsx"))])
     assert not (tmp_path / "d.xlsx").exists()
     assert capsys.readouterr().out == ""

@@ -43,8 +43,6 @@ def check(program: Program, machine: Machine, columns: Columns, folder: Path) ->
     (folder / "tables.bin").write_bytes(image_of(compile_tables(machine), GUID))
     write_trajectory(folder / "input.bin", machine, columns)
     script = [f"instantiate 0 name 1 {GUID} {text(folder)} 1 1", "replay 0 input.bin output.bin"]
-    if program.way.runner == ("wine64",):
-        script[0] = f"instantiate 0 name 1 {GUID} . 1 1"
     answers = program.run(script, folder)
     assert [answer.status for answer in answers] == [1, OK]
     assert (folder / "output.bin").read_bytes() == expected_results(machine, columns)
