@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..measurement.columns import MeasurementError
 from ..measurement.create_crosstalk import create_crosstalk, read_acceleration_tests
 from ..measurement.create_curves import create_cross, create_leadscrew
 from ..measurement.create_friction import create_friction, read_friction_readings
@@ -19,6 +16,7 @@ from ..measurement.creation import Creation, Options
 from ..measurement.positioning import joined, read_positioning
 from ..measurement.target_list import TargetList
 from . import create_volumetric
+from .creating import carry_out
 
 
 class _Kind(NamedTuple):
@@ -139,24 +137,12 @@ def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], name: 
 
 def _do_create(args: argparse.Namespace) -> int:
     kind: _Kind = args.kind
-    try:
+
+    def make() -> Creation:
         measurement = joined([kind.read(path) for path in args.files])
-        creation = kind.create(measurement, TargetList(args.into, args.axis, args.name), _options(args))
-        written = None if args.dry_run else creation.write(args.output)
-        if args.plot is not None:
-            creation.plot().figure.savefig(args.plot)  # type: ignore[union-attr]
-    except MeasurementError as error:
-        print(error, file=sys.stderr)
-        return 1
-    except ValueError as error:
-        print(f"axcomp create: {error}", file=sys.stderr)
-        return 1
-    if args.format == "json":
-        written_to = None if written is None else str(written)
-        print(json.dumps({**creation.to_dict(), "written": written_to}, indent=2, ensure_ascii=False))
-    else:
-        _print(creation, written)
-    return 0
+        return kind.create(measurement, TargetList(args.into, args.axis, args.name), _options(args))
+
+    return carry_out(args, make, _print)
 
 
 def _options(args: argparse.Namespace) -> Options:

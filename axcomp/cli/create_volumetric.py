@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 from pathlib import Path
 
-from ..measurement.columns import MeasurementError
 from ..measurement.create_volumetric import VolumetricCreation, create_volumetric
 from ..measurement.positioning import joined
 from ..measurement.volumetric_identification import NODES_MAX
 from ..measurement.volumetric_model import read_tcp_deviations
 from ..measurement.volumetric_target import VolumetricTarget
 from ..volumetric import LETTERS, Volumetric
+from .creating import carry_out
 
 _EXAMPLE = """\
 example:
@@ -65,27 +63,14 @@ def add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser]) -> None
 
 
 def _do_create_volumetric(args: argparse.Namespace) -> int:
-    try:
+    def make() -> VolumetricCreation:
         measurement = joined([read_tcp_deviations(path) for path in args.files])
         if args.nodes < 2 or (args.scatter is not None and not args.scatter > 0.0):
             raise ValueError("an error has two nodes at least, and the scatter is above 0")
         target = VolumetricTarget(args.into, _new(args))
-        creation = create_volumetric(measurement, target, args.errors, args.nodes, args.scatter)
-        written = None if args.dry_run else creation.write(args.output)
-        if args.plot is not None:
-            creation.plot().figure.savefig(args.plot)  # type: ignore[union-attr]
-    except MeasurementError as error:
-        print(error, file=sys.stderr)
-        return 1
-    except ValueError as error:
-        print(f"axcomp create: {error}", file=sys.stderr)
-        return 1
-    if args.format == "json":
-        written_to = None if written is None else str(written)
-        print(json.dumps({**creation.to_dict(), "written": written_to}, indent=2, ensure_ascii=False))
-    else:
-        _print(creation, written)
-    return 0
+        return create_volumetric(measurement, target, args.errors, args.nodes, args.scatter)
+
+    return carry_out(args, make, _print)
 
 
 def _new(args: argparse.Namespace) -> Volumetric | None:
