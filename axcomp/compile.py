@@ -43,11 +43,13 @@ from .machine import (
     Plane,
 )
 
-__all__ = ["CYCLE_TIME", "CompileError", "compile_tables"]
+__all__ = ["CYCLE_TIME", "CYCLE_TIME_MAX", "CompileError", "compile_tables"]
 
 CYCLE_TIME = 0.001
 """Default cycle time of the position controller in s: no list names it."""
 
+CYCLE_TIME_MAX = 1e3
+"""Cycle times are shorter, s."""
 
 PLANE_POINTS = 10201
 """Entries of a plane where the list does not say how many (P-COMP-00061)."""
@@ -68,7 +70,7 @@ def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Tables:
     CompileError
         If an axis is missing, abscissae do not ascend, sizes differ, or a number is out of range.
     """
-    if not 0.0 < cycle_time < 1e3:
+    if not 0.0 < cycle_time < CYCLE_TIME_MAX:
         raise CompileError(f"the cycle time must be above 0 s, not {cycle_time}")
     if len(machine.axes) > AXES_MAX:
         raise CompileError(f"{len(machine.axes)} axes: at most {AXES_MAX} are possible")

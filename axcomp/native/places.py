@@ -10,11 +10,13 @@ import zlib
 from collections.abc import Iterator
 from typing import Any
 
+from ..compile import CYCLE_TIME_MAX
 from ..fmu.variable import BLOCK, TYPE_NAMES
 from ..fmu.variables import AXIS_BLOCK, MACHINE_BLOCK, VOLUMETRIC_BLOCK, Controls, every_place
 from ..kernel.record import zero
 from ..kernel.records import AxisTable, Inputs, Outputs, State
 from ..kernel.volumetric_records import VolumetricTable
+from ..runtime import ON_INSTANT
 from .layout import ctypes_of
 
 GENERATED = "/* Generated from axcomp/fmu/variables.py by `python -m axcomp.native`; do not edit. */"
@@ -42,6 +44,8 @@ def layout_header() -> str:
 
 #define AXCOMP_LAYOUT 0x{layout():08x}u  /* of the records in images and states */
 #define AXCOMP_POINTER {ctypes.sizeof(ctypes.c_void_p)}u  /* bytes of a pointer in them */
+#define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
+#define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
 
 enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK} }};
 

@@ -11,7 +11,6 @@
 
 enum { MESSAGE_LENGTH = 1024 };
 
-static const double ON_INSTANT = 0.01;     /* share of a cycle by which a communication point may miss an instant */
 static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
@@ -45,7 +44,7 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
 
 bool axcomp_cycle_time_fits(double cycle_time)
 {
-    return cycle_time > 0.0 && cycle_time < 1e3;
+    return cycle_time > 0.0 && cycle_time < AXCOMP_CYCLE_TIME_MAX;
 }
 
 void axcomp_begin_again(Instance *instance)
@@ -221,7 +220,7 @@ static void give_notice(Instance *instance)
 fmi2Status axcomp_advance(Instance *instance, double time)
 {
     Memory *memory = &instance->memory;
-    double due = ceil((time - memory->start_time) / instance->lists->tables.cycle_time - ON_INSTANT);
+    double due = ceil((time - memory->start_time) / instance->lists->tables.cycle_time - AXCOMP_ON_INSTANT);
     if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
         return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
     }
