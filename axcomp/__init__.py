@@ -10,13 +10,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .engine import Engine, Result
+    from .engine.engine import Engine, Result
     from .lists import read_machine, write_machine
-    from .machine import Machine
+    from .model.machine import Machine
 
 __all__ = ["Engine", "Machine", "Result", "read_machine", "write_machine"]
 
-_MODULES = {"Engine": "engine", "Result": "engine", "Machine": "machine", "read_machine": "lists"}
+_MODULES = {"Engine": "engine.engine", "Result": "engine.engine", "Machine": "model.machine", "read_machine": "lists"}
 _MODULES["write_machine"] = "lists"
 
 

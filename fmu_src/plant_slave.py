@@ -7,10 +7,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from plant_model import variables as v
-from plant_model.machine import FILE_NAME, Plant
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
+
+from axcomp.plant import variables as v
+from axcomp.plant.machine import FILE_NAME, Plant
 
 LARGEST = 1e12
 """Inputs beyond are not used, as if they were infinite."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from axcomp.machine import (
+from axcomp.model.machine import (
     Axis,
     AxisType,
     Cross,

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
-from axcomp.delaunay import triangulate
-from axcomp.machine import (
+from axcomp.model.delaunay import triangulate
+from axcomp.model.machine import (
     Axis,
     AxisType,
     Cross,

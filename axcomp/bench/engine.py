@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine import Engine
+from ..engine.engine import Engine
 from ..lists import read_machine, write_machine
-from ..machine import Machine
+from ..model.machine import Machine
 from ..native.library import SWITCH, compiled_kernel
-from ..runtime import Runtime
+from ..runtime.runtime import Runtime
 from .clock import Sample, sample
 from .machines import largest_machine, machine_of
 
@@ -92,7 +92,7 @@ def bench_lists(repeats: int) -> Iterator[Sample]:
 def bench_memory(machine: Machine, cycles: int) -> Iterator[Sample]:
     """Measure by how much the process has grown at most after many cycles."""
     try:
-        import resource  # noqa: PLC0415 - not on Windows, where this one figure is left out
+        import resource  # not on Windows, where this one figure is left out
     except ImportError:
         return
     work = _Motion(machine)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..machine import AXES_MAX, Axis, Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Machine, Plane
+from ..model.machine import AXES_MAX, Axis, Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Machine, Plane
 
 
 def machine_of(axes: int, points: int) -> Machine:

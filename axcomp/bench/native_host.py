@@ -8,15 +8,15 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from ..compile import CYCLE_TIME, compile_tables
 from ..fmu.native_package import IMAGE, SOURCES
-from ..fmu.variable import Variable, with_causality
-from ..fmu.variables import variables_of
+from ..interface.variable import Variable, with_causality
+from ..interface.variables import variables_of
 from ..lists import read_machine
-from ..machine import Machine
+from ..model.companions import fmu_sources, models
+from ..model.machine import Machine
 from ..native.compiler import PLATFORMS, compile_library, compile_program, compiler_of, own_platform
 from ..native.image import image_of
-from ..places import fmu_sources, models
+from ..runtime.compile import CYCLE_TIME, compile_tables
 from .clock import Sample
 from .machines import machine_of
 

@@ -17,8 +17,8 @@ from ..bench.fmu import bench_fmus
 from ..bench.native_host import bench_native_host
 from ..fmu.archive import BuildError
 from ..lists import read_machine
+from ..model.companions import models
 from ..native.compiler import CompilerError, has_cross_compiler
-from ..places import models
 
 EXAMPLE = """example:
   axcomp bench --quick

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..budget.contributions import POINTS, Budget, budget_of
-from ..budget.propagation import COVERAGE, PLACES, TRIALS, TcpUncertainty, tcp_uncertainty
-from ..budget.uncertainty import read_uncertainties
-from ..compile import CYCLE_TIME
+from ..analysis.budget.contributions import POINTS, Budget, budget_of
+from ..analysis.budget.propagation import COVERAGE, PLACES, TRIALS, TcpUncertainty, tcp_uncertainty
+from ..analysis.budget.uncertainty import read_uncertainties
+from ..engine.trajectory import read_input
 from ..lists import Severity, read_machine
-from ..places import machine_path
-from ..sweep.trajectory import read_input
+from ..model.companions import machine_path
+from ..runtime.compile import CYCLE_TIME
 
 ROWS = 15
 
@@ -94,8 +94,8 @@ def _do_budget(args: argparse.Namespace) -> int:
         print(f"axcomp budget: {fault}", file=sys.stderr)
         return 1
     if args.plot is not None:
-        from ..budget.picture import budget_figure  # noqa: PLC0415 - Matplotlib takes long to load
-        from ..show.style import save  # noqa: PLC0415
+        from ..analysis.budget.picture import budget_figure
+        from ..plot.style import save
 
         save(budget_figure(budget, uncertainty), args.plot)
     if args.format == "json":
@@ -107,7 +107,7 @@ def _do_budget(args: argparse.Namespace) -> int:
 
 
 def _print(budget: Budget, uncertainty: TcpUncertainty | None, rows: int) -> None:
-    from ..measurement.terminal import console, figure, table  # noqa: PLC0415 - Rich is of the extra "workbench"
+    from ..plot.terminal import console, figure, table
 
     out = console()
     for axis, total in budget.totals.items():
@@ -137,7 +137,7 @@ def _print(budget: Budget, uncertainty: TcpUncertainty | None, rows: int) -> Non
 
 
 def _print_uncertainty(uncertainty: TcpUncertainty) -> None:
-    from ..measurement.terminal import console, figure, table  # noqa: PLC0415
+    from ..plot.terminal import console, figure, table
 
     head = ["largest along the path", *uncertainty.axes]
     lines = [[label, *(figure(v, 3) for v in values.max(axis=0))] for label, values in uncertainty.sources.items()]

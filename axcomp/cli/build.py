@@ -7,15 +7,16 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..compile import CYCLE_TIME
-from ..diagnosis.records import volumetric_lists
+from ..analysis.diagnosis.records import volumetric_lists
 from ..fmu.archive import BuildError
 from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native, write_image
-from ..fmu.package import package_axcomp, package_plant
+from ..fmu.package import package_axcomp
 from ..lists import Reading
+from ..model.companions import machine_path, models
 from ..native.compiler import PLATFORMS
-from ..places import machine_path, models
+from ..plant.fmu import package_plant
+from ..runtime.compile import CYCLE_TIME
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -131,7 +132,7 @@ def _write_diagnoses(lists: Path, built: Built) -> None:
     if not sources:
         return
     try:
-        from ..diagnosis.files import Written, write_diagnoses  # noqa: PLC0415 - openpyxl is of the extra "workbench"
+        from ..analysis.diagnosis.files import Written, write_diagnoses
     except ModuleNotFoundError as error:
         names = ", ".join(source.diagnosis_file for source in sources)
         print(f"note: {names} is not written without {error.name}: pip install 'axcomp[workbench]'.", file=sys.stderr)

@@ -8,9 +8,9 @@ import sys
 from dataclasses import asdict
 from typing import Any
 
-from ..judgement import Judgement
+from ..analysis.judgement import Judgement
 from ..lists import Reading, Severity, read_machine
-from ..places import machine_path
+from ..model.companions import machine_path
 from .judgement_options import add_judgement_options, evidence_of, judgement_of
 
 STATUS_MAX = 100

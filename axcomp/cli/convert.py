@@ -15,8 +15,8 @@ from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
 from ..convert.table import CannotHoldError, CompensationTable, FormatError
 from ..lists import Severity, read_machine, write_machine
 from ..lists.grammar import decode
-from ..machine import KINDS, Machine
-from ..places import machine_path
+from ..model.companions import machine_path
+from ..model.machine import KINDS, Machine
 
 _NAMES = (LISTS, *FORMATS)
 

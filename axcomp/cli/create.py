@@ -8,13 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..measurement.create_crosstalk import create_crosstalk, read_acceleration_tests
-from ..measurement.create_curves import create_cross, create_leadscrew
-from ..measurement.create_friction import create_friction, read_friction_readings
-from ..measurement.create_plane import create_plane, read_flatness
-from ..measurement.creation import Creation, Options
+from ..fit.create_crosstalk import create_crosstalk, read_acceleration_tests
+from ..fit.create_curves import create_cross, create_leadscrew
+from ..fit.create_friction import create_friction, read_friction_readings
+from ..fit.create_plane import create_plane, read_flatness
+from ..fit.creation import Creation, Options
+from ..fit.target_list import TargetList
 from ..measurement.positioning import joined, read_positioning
-from ..measurement.target_list import TargetList
 from . import create_volumetric
 from .creating import carry_out
 
@@ -162,7 +162,7 @@ def _options(args: argparse.Namespace) -> Options:
 
 
 def _print(creation: Creation, written: Path | None) -> None:
-    from ..measurement.terminal import compared, console  # noqa: PLC0415 - Rich is of the extra "workbench"
+    from ..plot.terminal import compared, console
 
     out = console()
     out.print(compared(f"{creation.kind} into {creation.path}", creation.figures, creation.labels, creation.unit))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..measurement.create_volumetric import VolumetricCreation, create_volumetric
+from ..fit.create_volumetric import VolumetricCreation, create_volumetric
+from ..fit.volumetric_identification import NODES_MAX
+from ..fit.volumetric_model import read_tcp_deviations
+from ..fit.volumetric_target import VolumetricTarget
 from ..measurement.positioning import joined
-from ..measurement.volumetric_identification import NODES_MAX
-from ..measurement.volumetric_model import read_tcp_deviations
-from ..measurement.volumetric_target import VolumetricTarget
-from ..volumetric import LETTERS, Volumetric
+from ..model.volumetric import LETTERS, Volumetric
 from .creating import carry_out
 
 _EXAMPLE = """\
@@ -87,7 +87,7 @@ def _new(args: argparse.Namespace) -> Volumetric | None:
 
 
 def _print(creation: VolumetricCreation, written: Path | None) -> None:
-    from ..measurement.terminal import compared, console, figure, table  # noqa: PLC0415 - Rich is of "workbench"
+    from ..plot.terminal import compared, console, figure, table
 
     out = console()
     rows = []

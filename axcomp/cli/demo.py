@@ -6,8 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..compile import CYCLE_TIME
-from ..places import machine_path, models
+from ..model.companions import machine_path, models
+from ..runtime.compile import CYCLE_TIME
 
 PICTURE = "demo.png"
 
@@ -49,9 +49,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_demo(args: argparse.Namespace) -> int:
-    from ..demo.evaluation import table  # noqa: PLC0415 - SciPy and Matplotlib take a second to load
-    from ..demo.picture import draw  # noqa: PLC0415
-    from ..demo.run import BuildError, DemoError, demonstrate  # noqa: PLC0415
+    from ..demo.evaluation import table
+    from ..demo.picture import draw
+    from ..demo.run import BuildError, DemoError, demonstrate
 
     try:
         machine, results, note = demonstrate(args.machine or models() / "three_axis", args.output)

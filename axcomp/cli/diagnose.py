@@ -6,12 +6,12 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..diagnosis.files import Written, write_diagnoses
-from ..diagnosis.records import volumetric_lists
+from ..analysis.diagnosis.files import Written, write_diagnoses
+from ..analysis.diagnosis.records import volumetric_lists
 from ..fmu.archive import BuildError
 from ..lists import Severity, read_machine
-from ..places import machine_path
-from ..volumetric import COMPENSATIONS_MAX
+from ..model.companions import machine_path
+from ..model.volumetric import COMPENSATIONS_MAX
 
 _EPILOG = """\
 A workbook has a sheet with the settings of the volumetric list and what was found in it, then a sheet for each

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..judgement import Demand, Judgement, judge, sign_of
-from ..judgement.dynamics import CYCLE_TIME
-from ..judgement.trajectory import setpoints
-from ..machine import Machine
+from ..analysis.judgement import Demand, Judgement, judge, sign_of
+from ..analysis.judgement.dynamics import CYCLE_TIME
+from ..analysis.judgement.trajectory import setpoints
+from ..engine.trajectory import InputFile, read_input
 from ..measurement.columns import MeasurementError
 from ..measurement.positioning import Positioning, read_positioning
-from ..sweep.trajectory import InputFile, read_input
+from ..model.machine import Machine
 
 SPEEDS = {"mm/min": 1 / 60, "m/min": 1e3 / 60, "mm/s": 1.0, "m/s": 1e3}
 SPEEDS |= {"deg/min": 1 / 60, "°/min": 1 / 60, "deg/s": 1.0, "°/s": 1.0, "rpm": 6.0}

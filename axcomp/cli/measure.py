@@ -94,7 +94,7 @@ def _conditions(args: argparse.Namespace) -> Conditions | None:
 
 
 def _plot(results: list[Iso230Result], file: Path) -> None:
-    from matplotlib.figure import Figure  # noqa: PLC0415 - takes long to load
+    from matplotlib.figure import Figure  # takes long to load
 
     drawing = Figure(figsize=(10.0, 5.6 * len(results)), dpi=120, layout="constrained")
     for place, result in enumerate(results, 1):
@@ -106,7 +106,7 @@ def _plot(results: list[Iso230Result], file: Path) -> None:
 
 
 def _print(result: Iso230Result) -> None:
-    from ..measurement.terminal import console, figure, table  # noqa: PLC0415 - Rich is of the extra "workbench"
+    from ..plot.terminal import console, figure, table
 
     out = console()
     frame = result.table()

@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compile import CYCLE_TIME
-from ..engine import COMMAND, Engine
-from ..nc import NcError
-from ..places import machine_path, models
+from ..engine.engine import COMMAND, Engine
+from ..engine.nc_scanner import NcError
+from ..model.companions import machine_path, models
+from ..runtime.compile import CYCLE_TIME
 
 TIME = "time"
 _ON_TIME = 1e-6

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..lists import Severity, read_machine
-from ..machine import KINDS, Machine
-from ..places import machine_path
-from ..show.content import Content, NotComparableError, Records
-from ..show.contents import contents_of
-from ..show.page import overview, page, shown
-from ..show.style import save
-from ..show.volume import volumetric_contents
+from ..model.companions import machine_path
+from ..model.machine import KINDS, Machine
+from ..plot.content import Content, NotComparableError, Records
+from ..plot.contents import contents_of
+from ..plot.page import overview, page, shown
+from ..plot.style import save
+from ..plot.volume import volumetric_contents
 
 VOLUMETRIC = "volumetric"
 ROWS = 12
@@ -171,7 +171,7 @@ def _figures(content: Content) -> dict[str, object]:
 
 
 def _print(contents: Sequence[Content], rows: int) -> None:
-    from ..measurement.terminal import console, table  # noqa: PLC0415 - Rich is of the extra "workbench"
+    from ..plot.terminal import console, table
 
     out = console()
     if len(contents) > 1:

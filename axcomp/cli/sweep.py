@@ -78,8 +78,8 @@ def _do_sweep(args: argparse.Namespace) -> int:
     if fault:
         print(f"axcomp sweep: {fault}", file=sys.stderr)
         return 1
-    from ..sweep.spec import ERROR, FINDINGS, RUN, read_spec  # noqa: PLC0415 - these need the extra "workbench"
-    from ..sweep.sweep import job_of, run_sweep  # noqa: PLC0415
+    from ..sweep.spec import ERROR, FINDINGS, RUN, read_spec
+    from ..sweep.sweep import job_of, run_sweep
 
     spec = read_spec(args.spec)
     job, findings = job_of(spec)
@@ -100,7 +100,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
             print("axcomp sweep: stopped; the same command goes on from here", file=sys.stderr)
             raise
     if args.plot is not None:
-        from ..show.style import save  # noqa: PLC0415
+        from ..plot.style import save
 
         save(sweep.plot(args.x, args.y).figure, args.plot)
     if args.format == "json":
@@ -133,10 +133,10 @@ def _fault(args: argparse.Namespace) -> str:
 
 
 def _print(output: Path, table: object, taken_over: int) -> None:
-    import pandas as pd  # noqa: PLC0415
+    import pandas as pd
 
-    from ..measurement import terminal  # noqa: PLC0415
-    from ..sweep.spec import ERROR, FINDINGS  # noqa: PLC0415
+    from ..plot import terminal
+    from ..sweep.spec import ERROR, FINDINGS
 
     assert isinstance(table, pd.DataFrame)
     # Texts have no room in a table.
@@ -156,8 +156,8 @@ class _Bar:
     """A progress bar on standard error."""
 
     def __init__(self) -> None:
-        from rich.console import Console  # noqa: PLC0415
-        from rich.progress import (  # noqa: PLC0415
+        from rich.console import Console
+        from rich.progress import (
             BarColumn,
             MofNCompleteColumn,
             Progress,

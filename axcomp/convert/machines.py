@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ..machine import Axis, AxisType, Cross, Leadscrew, Machine, ModuloRange
+from ..model.machine import Axis, AxisType, Cross, Leadscrew, Machine, ModuloRange
 from .table import CannotHoldError, CompensationTable, Unit
 
 CONVERTED = ("leadscrew", "cross")

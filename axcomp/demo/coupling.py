@@ -19,7 +19,7 @@ import numpy as np
 from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-from ..measurement.motion import Array
+from ..engine.motion import Array
 
 COMPENSATION, PLANT = "axcomp", "plant"
 COMMANDS = ("setpoint", "velocity", "acceleration")

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..machine import Machine
-from ..measurement.motion import Array
+from ..engine.motion import Array
+from ..model.machine import Machine
 from .trials import TCP, VOLUMETRIC, Cycles, Trial, name_of
 
 MILLI = 1e3

@@ -13,14 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import extract
 
-from ..compile import CYCLE_TIME
+from ..engine.motion import Array
 from ..fmu.archive import BuildError
 from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native
-from ..fmu.package import package_axcomp, package_plant
-from ..fmu.plant import read_plant
-from ..machine import Machine
-from ..measurement.motion import Array
+from ..fmu.package import package_axcomp
+from ..model.machine import Machine
+from ..plant.fmu import package_plant, read_plant
+from ..runtime.compile import CYCLE_TIME
 from .coupling import COMMANDS, COMPENSATION, PLANT, Job, Recorded, read_results, write_job
 from .evaluation import Outcome, Record, outcomes
 from .trials import VOLUMETRIC, Trial, name_of, trials_of

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..fmu.variables import identifier
-from ..machine import KINDS, Axis, Crosstalk, Machine, Plane
-from ..measurement.motion import Array, Course, Limits, Setpoints, move
+from ..engine.motion import Array, Course, Limits, Setpoints, move
+from ..interface.variables import identifier
+from ..model.machine import KINDS, Axis, Crosstalk, Machine, Plane
 
 Cycles = npt.NDArray[np.intp]
 

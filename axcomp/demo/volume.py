@@ -9,9 +9,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..machine import Axis, Machine
-from ..measurement.motion import Course, Limits
-from ..volumetric import LINEAR
+from ..engine.motion import Course, Limits
+from ..model.machine import Axis, Machine
+from ..model.volumetric import LINEAR
 from .trials import RAPID, TCP, VOLUMETRIC, Stage, Trial, name_of, settle
 
 TOOL_LENGTH = 120.0

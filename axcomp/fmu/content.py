@@ -9,16 +9,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from ..compile import compile_tables
-from ..compile_pool import CompileError
+from ..interface.variable import Variable
+from ..interface.variables import Naming, identifier, variables_of
 from ..kernel.records import Tables
 from ..lists import Finding, read_machine
-from ..machine import Machine
+from ..model.machine import Machine
+from ..runtime.compile import compile_tables
+from ..runtime.compile_pool import CompileError
 from .archive import BuildError, generation_date
 from .description import Description
 from .packed_lists import packed_lists
-from .variable import Variable
-from .variables import Naming, identifier, variables_of
 
 NAME = "axcomp"
 """Name of the model, and of its file."""

@@ -12,16 +12,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
+from ..interface.errors import ERROR_CALL
+from ..interface.variable import TYPE_NAMES, Value
+from ..interface.variables import Controls, every_place
 from ..kernel.records import ERROR_UPDATE
 from ..lists import read_machine
 from ..lists.findings import Severity
-from ..machine import Machine
-from ..runtime import Runtime
-from .errors import ERROR_CALL
-from .interface import FILE_NAME, Interface
+from ..model.machine import Machine
+from ..runtime.runtime import Runtime
+from .packed_interface import FILE_NAME, Interface
 from .saved import Saved
-from .variable import TYPE_NAMES, Value
-from .variables import Controls, every_place
 
 FINDINGS_MAX = 100
 """Findings of one reading that go to the log."""

@@ -9,14 +9,14 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from ..compile import CYCLE_TIME
+from ..interface.variables import Naming
+from ..model.companions import fmu_sources
 from ..native.compiler import PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
 from ..native.image import image_of, image_source
-from ..places import fmu_sources
+from ..runtime.compile import CYCLE_TIME
 from .archive import BuildError, content_guid, file_bytes, write_fmu
 from .content import NAME, Built, Content, output_path, read_content
 from .description import model_description
-from .variables import Naming
 
 SOURCES = (
     "fmu.c",

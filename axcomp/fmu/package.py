@@ -1,4 +1,4 @@
-"""Packs the FMUs that run on pythonfmu: the compensations with their lists, and the plant."""
+"""Packs FMUs that run on pythonfmu: the compensations with their lists, or any other slave."""
 
 from __future__ import annotations
 
@@ -9,18 +9,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..compile import CYCLE_TIME
-from ..places import fmu_sources
-from .archive import BuildError, content_guid, file_bytes, generation_date, write_fmu
-from .content import PACKAGE, Built, output_path, read_content, version
+from ..interface.variable import Variable
+from ..interface.variables import Naming
+from ..model.companions import fmu_sources
+from ..runtime.compile import CYCLE_TIME
+from .archive import BuildError, content_guid, file_bytes, write_fmu
+from .content import PACKAGE, Built, output_path, read_content
 from .description import Description, model_description
-from .interface import FILE_NAME, Interface
-from .plant import read_plant
+from .packed_interface import FILE_NAME, Interface
 from .sources import renamed_sources
-from .variable import Variable
-from .variables import Naming
-
-STEP_OF_PLANT = 0.001
 
 
 def package_axcomp(
@@ -56,36 +53,10 @@ def package_axcomp(
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)
-    return content.built(_write(output, description, content.variables, sources, resources))
+    return content.built(write_python_fmu(output, description, content.variables, sources, resources))
 
 
-def package_plant(
-    model: str | os.PathLike[str],
-    output: str | os.PathLike[str],
-    *,
-    external_tool: bool = True,
-) -> Path:
-    """Write the FMU of the plant that ``plant.json`` in a model's folder describes; a folder: ``plant.fmu`` in it.
-
-    Raises
-    ------
-    BuildError
-        If the description is missing or wrong, pythonfmu is missing, or the file cannot be written.
-    """
-    variables, file = read_plant(Path(model))
-    description = Description(
-        name="plant",
-        text="Drives, friction and geometric errors of a machine",
-        step_size=STEP_OF_PLANT,
-        version=version(),
-        generated=generation_date(),
-        capabilities={"needsExecutionTool": external_tool},
-    )
-    sources = (fmu_sources() / "plant_slave.py", fmu_sources() / "plant_model")
-    return _write(output, description, variables, sources, {file.name: file_bytes(file)})
-
-
-def _write(
+def write_python_fmu(
     output: str | os.PathLike[str],
     description: Description,
     variables: Sequence[Variable],

@@ -8,10 +8,10 @@ import zlib
 from dataclasses import dataclass, fields
 from typing import Any
 
-from .. import machine as machine_classes
-from .. import volumetric as volumetric_classes
-from ..machine import Machine
-from ..snapshot import SnapshotError
+from ..model import machine as machine_classes
+from ..model import volumetric as volumetric_classes
+from ..model.machine import Machine
+from ..runtime.snapshot import SnapshotError
 
 MAGIC = b"axcompF1"
 

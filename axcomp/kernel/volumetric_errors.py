@@ -10,14 +10,7 @@ from typing import Annotated
 
 from .interpolation import fold
 from .record import Vec, zeros
-from .volumetric_records import (
-    ERRORS,
-    INTERPOLATE_GRID,
-    INTERPOLATE_SCATTER,
-    LETTERS,
-    ErrorBlock,
-    VolumetricTable,
-)
+from .volumetric_records import ERRORS, INTERPOLATE_GRID, INTERPOLATE_SCATTER, LETTERS, ErrorBlock, VolumetricTable
 
 FULL_TURN = 360.0
 AT_NODE = 1e-30  # squared distance below which a position is a node

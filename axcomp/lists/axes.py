@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..machine import AXES_MAX, AxisType, ModuloRange
+from ..model.machine import AXES_MAX, AxisType, ModuloRange
 from .findings import Findings
 from .values import METRIC, Gear, ListValues
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..volumetric import COMPENSATIONS_MAX
+from ..model.volumetric import COMPENSATIONS_MAX
 from .parameter import DataType, Manual, Parameter, Quantity
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..volumetric import FILES_MAX, LETTERS, LINEAR, Interpolation
+from ..model.volumetric import FILES_MAX, LETTERS, LINEAR, Interpolation
 from .parameter import DataType, Manual, Parameter, Quantity
 
 AUTO = "AUTO"

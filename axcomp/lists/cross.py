@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..machine import Cross
+from ..model.machine import Cross
 from .compensation import CompensationList
 from .format import Lines
 

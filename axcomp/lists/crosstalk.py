@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import fields
 
-from ..delaunay import triangulate
-from ..machine import AxisType, Crosstalk, CrosstalkCurve, CrosstalkTest
+from ..model.delaunay import triangulate
+from ..model.machine import AxisType, Crosstalk, CrosstalkCurve, CrosstalkTest
 from .axes import AxisSettings
 from .compensation import CompensationList
 from .format import Lines

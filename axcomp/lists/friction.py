@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..machine import Friction
+from ..model.machine import Friction
 from .compensation import CompensationList
 from .format import Lines
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..volumetric import LETTERS
+from ..model.volumetric import LETTERS
 from .findings import Findings
 from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers
 

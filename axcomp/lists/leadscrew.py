@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal, localcontext
 
-from ..machine import Leadscrew
+from ..model.machine import Leadscrew
 from .catalogue import parameter
 from .compensation import CompensationList
 from .format import Lines, in_list

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..machine import AxisType, Plane
+from ..model.machine import AxisType, Plane
 from .axes import AxisSettings
 from .compensation import CompensationList
 from .format import Lines

@@ -7,8 +7,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..machine import KINDS, Axis, Machine
-from ..volumetric import Volumetric
+from ..model.machine import KINDS, Axis, Machine
+from ..model.volumetric import Volumetric
 from . import cross, crosstalk, friction, leadscrew, plane
 from .axes import ACTIVATION, Axes, AxisSettings, read_axis
 from .compensation import CompensationList

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ..places import models
+from ..model.companions import models
 from .catalogue import CATALOGUE
 from .findings import CODES
 from .parameter import DataType, ListKind, Manual, Parameter

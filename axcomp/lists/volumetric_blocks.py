@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from ..volumetric import LENGTH_MAX, LETTERS, PARAMETERS, largest
+from ..model.volumetric import LENGTH_MAX, LETTERS, PARAMETERS, largest
 from .findings import Findings
 
 ELISIONS = frozenset(("...", "…", ":"))

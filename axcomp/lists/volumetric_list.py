@@ -9,8 +9,8 @@ import math
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
-from ..machine import AxisType
-from ..volumetric import (
+from ..model.machine import AxisType
+from ..model.volumetric import (
     AXIS_NUMBERS,
     CENTERS,
     COMPENSATIONS_MAX,

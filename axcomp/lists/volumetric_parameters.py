@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Interpolation, is_grid
+from ..model.volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Interpolation, is_grid
 from .catalogue_volumetric import AUTO
 from .findings import Findings
 from .volumetric_blocks import ParameterBlock

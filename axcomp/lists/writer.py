@@ -5,7 +5,7 @@ from __future__ import annotations
 from os import PathLike
 from pathlib import Path
 
-from ..machine import AXES_MAX, Axis, Machine
+from ..model.machine import AXES_MAX, Axis, Machine
 from .axes import ACTIVATION
 from .cross import format_cross
 from .crosstalk import format_crosstalk

@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..engine.motion import Array
 from ..lists.grammar import decode
-from .motion import Array
 
 LENGTHS = {"m": 1e6, "mm": 1e3, "um": 1.0, "nm": 1e-3}
 """Units of length, in µm."""

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from .motion import Array
+from ..engine.motion import Array
 from .positioning import Positioning
 from .uncertainty import Conditions
 
@@ -110,7 +110,7 @@ class Iso230Result:
 
     def table(self) -> pd.DataFrame:
         """Return the figures of each target as a data frame, one row a target, symbols of the standard as columns."""
-        import pandas as pd  # noqa: PLC0415 - of the extra "workbench"
+        import pandas as pd  # of the extra "workbench"
 
         return pd.DataFrame(
             {
@@ -157,7 +157,7 @@ class Iso230Result:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
-        from .iso230_plot import plot  # noqa: PLC0415 - Matplotlib takes long to load
+        from ..plot.iso230 import plot
 
         return plot(self, ax)
 

@@ -13,8 +13,8 @@ from typing import Any, ClassVar, Protocol, TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from ..engine.motion import Array
 from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, read_columns
-from .motion import Array
 from .renishaw import is_rtl, read_rtl
 
 TARGET_DIGITS = 6

@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..engine.motion import Array
 from .columns import LARGEST, MeasurementError, read_text
-from .motion import Array
 
 SUFFIX = ".rtl"
 _SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _-]*?)\s*::\s*\Z")

@@ -10,16 +10,16 @@ import zlib
 from collections.abc import Iterator
 from typing import Any
 
-from ..compile import CYCLE_TIME_MAX
-from ..fmu.variable import BLOCK, TYPE_NAMES
-from ..fmu.variables import AXIS_BLOCK, MACHINE_BLOCK, VOLUMETRIC_BLOCK, Controls, every_place
+from ..interface.variable import BLOCK, TYPE_NAMES
+from ..interface.variables import AXIS_BLOCK, MACHINE_BLOCK, VOLUMETRIC_BLOCK, Controls, every_place
 from ..kernel.record import zero
 from ..kernel.records import AxisTable, Inputs, Outputs, State
 from ..kernel.volumetric_records import VolumetricTable
-from ..runtime import ON_INSTANT
+from ..runtime.compile import CYCLE_TIME_MAX
+from ..runtime.runtime import ON_INSTANT
 from .layout import ctypes_of
 
-GENERATED = "/* Generated from axcomp/fmu/variables.py by `python -m axcomp.native`; do not edit. */"
+GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
 TABLES = {
     "axcomp_machine_places": MACHINE_BLOCK,
     "axcomp_axis_places": AXIS_BLOCK,

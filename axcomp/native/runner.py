@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..fmu.variable import Variable
+from ..interface.variable import Variable
 from ..kernel.records import Inputs, Outputs, State, Tables
-from ..runtime import Runtime
+from ..runtime.runtime import Runtime
 from .layout import ctypes_of, from_c, to_c
 
 if TYPE_CHECKING:

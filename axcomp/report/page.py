@@ -10,14 +10,14 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..budget.picture import budget_figure
-from ..judgement.curves import rate, unit_of
-from ..machine import AxisType
+from ..analysis.budget.picture import budget_figure
+from ..analysis.judgement.curves import rate, unit_of
 from ..measurement.iso230 import SYMBOLS, Iso230Result
-from ..measurement.terminal import figure as number
-from ..show.content import Records
-from ..show.page import document, overview, picture, section, table
-from ..show.style import new_figure, printed
+from ..model.machine import AxisType
+from ..plot.content import Records
+from ..plot.page import document, overview, picture, section, table
+from ..plot.style import new_figure, printed
+from ..plot.terminal import figure as number
 from .report import Report
 
 CONTRIBUTIONS_SHOWN = 12

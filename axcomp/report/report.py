@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
+from ..analysis.budget.contributions import Budget, budget_of
+from ..analysis.judgement import Demand, Judgement, judge
+from ..analysis.judgement.dynamics import CYCLE_TIME
 from ..bench.clock import Sample
 from ..bench.engine import bench_engine
-from ..budget.contributions import Budget, budget_of
-from ..judgement import Demand, Judgement, judge
-from ..judgement.dynamics import CYCLE_TIME
+from ..engine.trajectory import InputFile
 from ..lists import Finding, Severity, read_machine
-from ..machine import Machine
 from ..measurement.iso230 import Iso230Result, evaluate
 from ..measurement.positioning import Positioning
-from ..show.content import Content
-from ..show.contents import contents_of
-from ..show.volume import volumetric_contents
-from ..sweep.trajectory import InputFile
+from ..model.machine import Machine
+from ..plot.content import Content
+from ..plot.contents import contents_of
+from ..plot.volume import volumetric_contents
 
 REPEATS = 3
 """Of the measurement of what a cycle costs."""
@@ -68,7 +68,7 @@ class Report:
 
     def html(self) -> str:
         """Return the page."""
-        from .page import report_page  # noqa: PLC0415 - pictures take long, figures alone do not need them
+        from .page import report_page
 
         return report_page(self)
 

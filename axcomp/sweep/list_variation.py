@@ -13,10 +13,10 @@ from typing import Any
 
 from ..lists import Finding, Severity, read_machine
 from ..lists.catalogue import SPELLINGS
+from ..lists.edit import edited
 from ..lists.grammar import decode, entries, number
 from ..lists.parameter import ListKind, key_of
-from ..machine import KINDS, Axis, Machine
-from ..measurement.list_edit import edited
+from ..model.machine import KINDS, Axis, Machine
 
 Value = bool | int | float | str
 

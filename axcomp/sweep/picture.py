@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from ..show.style import labelled, line_styles, new_figure
+from ..plot.style import labelled, line_styles, new_figure
 from .spec import ERROR
 
 if TYPE_CHECKING:

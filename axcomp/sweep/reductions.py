@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..measurement.motion import Array
+from ..engine.motion import Array
 
 Column = npt.NDArray[Any]
 

@@ -34,13 +34,13 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from ..compile import CYCLE_TIME
-from ..measurement.motion import Limits
+from ..engine.motion import Limits
+from ..engine.trajectory import LIMITS, InputError, InputFile, Motion, Sine, read_input
+from ..runtime.compile import CYCLE_TIME
 from .errors import SpecError
 from .list_variation import Value
 from .reductions import Reduction
 from .settings import Setting
-from .trajectory import LIMITS, InputError, InputFile, Motion, Sine, read_input
 
 MACHINE = "machine"
 RUN, FINDINGS, ERROR = "run", "findings", "error"

@@ -53,7 +53,7 @@ class Sweep:
 
     def plot(self, x: str, y: str, ax: Any = None) -> Any:
         """Draw a result over what was varied, a line for each combination of the rest; return the Matplotlib axes."""
-        from .picture import plot_sweep  # noqa: PLC0415 - Matplotlib takes long to load
+        from .picture import plot_sweep
 
         return plot_sweep(self.table, self.varied, x, y, ax)
 
@@ -163,8 +163,8 @@ def run_sweep(
 
 
 def _performed(job: Job, runs: list[Run], scheduler: str | None, workers: int | None) -> Iterator[tuple[Run, Row]]:
-    from ..native.library import compiled_kernel  # noqa: PLC0415
-    from .cluster import completed  # noqa: PLC0415 - Dask takes long to load
+    from ..native.library import compiled_kernel
+    from .cluster import completed
 
     if scheduler is None:
         # Compiled once here, it is there for all workers.

@@ -19,13 +19,13 @@ from typing import Any
 
 import numpy as np
 
-from ..engine import Engine
-from ..machine import Machine
+from ..engine.engine import Engine
+from ..engine.trajectory import LIMITS, Columns, InputFile, Motion, completed
+from ..model.machine import Machine
 from .list_variation import ListEntry, Table, Value, read_files
 from .reductions import Column, Reduction
 from .settings import PARAMETERS
 from .spec import ERROR, FINDINGS, Run
-from .trajectory import LIMITS, Columns, InputFile, Motion, completed
 
 Row = dict[str, Any]
 """Results of a run by column: numbers, ``findings`` and ``error``; texts are "" where there is nothing to say."""
@@ -160,7 +160,7 @@ def _machine(source: Source, entries: tuple[tuple[ListEntry, Value], ...]) -> tu
 def _simulate_fmu(
     source: Source, run: Run, columns: Columns, starts: Mapping[str, Any], cycle_time: float
 ) -> tuple[Mapping[str, Column], float, str]:
-    from fmpy import simulate_fmu  # noqa: PLC0415 - only FMUs need it, and it takes long to load
+    from fmpy import simulate_fmu  # only FMUs need it, and it takes long to load
 
     if any(setting.of_lists for setting in run.values):
         raise ValueError("lists cannot be varied in an FMU; expected a machine given by its lists")
@@ -199,7 +199,7 @@ class _Unpacked:
     """An unpacked FMU; its folder goes with it."""
 
     def __init__(self, source: Source) -> None:
-        from fmpy import extract, read_model_description  # noqa: PLC0415
+        from fmpy import extract, read_model_description
 
         self.folder = tempfile.mkdtemp(prefix="axcomp-sweep-")
         packed = Path(self.folder, "packed.fmu")

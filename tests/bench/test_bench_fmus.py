@@ -11,8 +11,8 @@ from axcomp.bench.engine import bench_engine
 from axcomp.bench.fmu import bench_fmus
 from axcomp.fmu.native_package import NoCompilerError
 from axcomp.lists import read_machine
+from axcomp.model.companions import models
 from axcomp.native.library import SWITCH, compiled_kernel
-from axcomp.places import models
 
 
 @pytest.mark.slow

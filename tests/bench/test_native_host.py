@@ -6,7 +6,7 @@ import pytest
 
 from axcomp.bench.machines import machine_of
 from axcomp.bench.native_host import NativeHost, plan_of
-from axcomp.fmu.variables import variables_of
+from axcomp.interface.variables import variables_of
 from axcomp.native.compiler import CompilerError, compiler_of, own_platform
 
 MACHINE = machine_of(2, 10)

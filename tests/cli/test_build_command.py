@@ -13,10 +13,10 @@ import pytest
 
 from axcomp.cli import main
 from axcomp.lists import write_machine
-from axcomp.machine import Axis, Leadscrew, Machine
+from axcomp.model.companions import models
+from axcomp.model.machine import Axis, Leadscrew, Machine
 from axcomp.native.compiler import own_platform
 from axcomp.native.image import MAGIC
-from axcomp.places import models
 
 ROOT = Path(__file__).parents[2]
 

@@ -10,8 +10,8 @@ from axcomp.cli.check import STATUS_MAX
 from axcomp.lists import write_machine
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.lists.reference import PAGE, page
-from axcomp.machine import Axis, Cross, Machine
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import Axis, Cross, Machine
 
 Capture = pytest.CaptureFixture[str]
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
-from axcomp.engine import Engine
+from axcomp.engine.engine import Engine
 from axcomp.lists import write_machine
-from axcomp.machine import Axis, Leadscrew, Machine
+from axcomp.model.machine import Axis, Leadscrew, Machine
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 
 from axcomp.cli import convert, main
 from axcomp.lists import read_machine, write_machine
-from axcomp.machine import Axis, Cross, Leadscrew, Machine, Plane
+from axcomp.model.machine import Axis, Cross, Leadscrew, Machine, Plane
 
 SCREW = Leadscrew((0.0, 10.0, 20.0), (0.0, 0.004, 0.001), (0.002, 0.005, 0.003), manual_activation=True)
 MACHINE = Machine(

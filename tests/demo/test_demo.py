@@ -10,10 +10,10 @@ import matplotlib.image
 import pytest
 
 from axcomp.cli.demo import PICTURE
-from axcomp.compile import CYCLE_TIME
 from axcomp.demo.picture import draw
 from axcomp.demo.run import BuildError, Demo, DemoError, demonstrate
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.runtime.compile import CYCLE_TIME
 
 
 def check(demo: Demo) -> None:

@@ -9,11 +9,11 @@ import pytest
 
 from axcomp.demo.evaluation import Outcome, table
 from axcomp.demo.trials import Trial, trials_of
+from axcomp.engine.motion import Setpoints
 from axcomp.lists import read_machine
-from axcomp.machine import KINDS
-from axcomp.measurement.motion import Setpoints
-from axcomp.measurement.simulated import load_plant
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import KINDS
+from axcomp.plant.simulated import load_plant
 
 CYCLE = 0.001
 

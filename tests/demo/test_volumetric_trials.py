@@ -11,8 +11,8 @@ from axcomp.demo.evaluation import Record, label, outcomes, table
 from axcomp.demo.trials import TCP, VOLUMETRIC, Trial, trials_of
 from axcomp.demo.volume import volumetric_trials
 from axcomp.lists import read_machine
-from axcomp.machine import Machine
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import Machine
 
 CYCLE = 0.001
 

@@ -6,7 +6,7 @@ import pytest
 from fmu_machines import three_axes
 
 from axcomp.fmu.description import UNITS, Description, model_description
-from axcomp.fmu.variables import variables_of
+from axcomp.interface.variables import variables_of
 
 DESCRIPTION = Description("axcomp", 'Corrects "X" & <Y>', 0.002, "1.2.3", capabilities={"needsExecutionTool": True})
 

@@ -17,12 +17,13 @@ from fmpy.validation import validate_fmu
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine import Engine
+from axcomp.engine.engine import Engine
 from axcomp.fmu import package
-from axcomp.fmu.package import package_axcomp, package_plant
+from axcomp.fmu.package import package_axcomp
 from axcomp.lists import write_machine
-from axcomp.machine import Machine
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import Machine
+from axcomp.plant.fmu import package_plant
 
 Outputs = list[dict[str, Any]]
 
@@ -164,7 +165,6 @@ def test_two_versions_of_the_code_run_in_one_process(
     assert changed != text
     cycle.write_text(changed, encoding="utf-8")
     monkeypatch.setattr(package, "PACKAGE", copied)
-    monkeypatch.setattr(package, "version", lambda: "0")
     newer = package_axcomp(lists, tmp_path / "newer.fmu").path
     rows = trajectory(20)
     old, new = in_child(alternate, [fmu, newer], [rows, rows])

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from fmu_machines import three_axes
 
-from axcomp.fmu.interface import Interface
-from axcomp.machine import AXES_MAX, Axis, AxisType, Machine
-from axcomp.volumetric import Volumetric
+from axcomp.fmu.packed_interface import Interface
+from axcomp.model.machine import AXES_MAX, Axis, AxisType, Machine
+from axcomp.model.volumetric import Volumetric
 
 INTERFACE = Interface.of(three_axes(), "machine/hochlauf.lis", 0.001)
 

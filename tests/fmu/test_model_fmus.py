@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from axcomp.examples.files import EXPECTED, INPUT, read_csv
-from axcomp.examples.trajectories import TRAJECTORIES
+from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv
+from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.fmu.package import package_axcomp
-from axcomp.places import models
+from axcomp.model.companions import models
 
 
 @pytest.mark.parametrize("name", sorted(TRAJECTORIES))

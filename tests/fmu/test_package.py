@@ -13,9 +13,10 @@ import pytest
 from fmu_machines import three_axes
 
 from axcomp.fmu.archive import BuildError
-from axcomp.fmu.package import package_axcomp, package_plant
+from axcomp.fmu.package import package_axcomp
 from axcomp.lists import read_machine, write_machine
-from axcomp.machine import Axis, Leadscrew, Machine
+from axcomp.model.machine import Axis, Leadscrew, Machine
+from axcomp.plant.fmu import package_plant
 
 
 def contents(fmu: Path) -> dict[str, bytes]:

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from fmu_host import CYCLE, Host, in_child
 
-from axcomp.fmu.package import package_plant
-from axcomp.measurement.simulated import load_plant
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.plant.fmu import package_plant
+from axcomp.plant.simulated import load_plant
 
 MODEL = models() / "three_axis"
 AXES = ("X", "Y", "Z")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from axcomp.fmu.package import PACKAGE
 from axcomp.fmu.sources import needed_files, renamed_sources
-from axcomp.places import fmu_sources
+from axcomp.model.companions import fmu_sources
 
 SLAVE = fmu_sources() / "axcomp_slave.py"
 

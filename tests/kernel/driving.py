@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from axcomp.kernel.records import AxisOutputs
-from axcomp.machine import Machine
-from axcomp.runtime import Runtime
+from axcomp.model.machine import Machine
+from axcomp.runtime.runtime import Runtime
 
 OUTPUTS = tuple(field.name for field in fields(AxisOutputs))
 

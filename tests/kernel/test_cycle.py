@@ -5,8 +5,8 @@ import pytest
 from driving import OUTPUTS, drive, to_and_fro
 
 from axcomp.kernel.records import ERROR_INPUT
-from axcomp.machine import Axis, Cross, CrosstalkCurve, Friction, Leadscrew, Machine, Plane
-from axcomp.runtime import Runtime
+from axcomp.model.machine import Axis, Cross, CrosstalkCurve, Friction, Leadscrew, Machine, Plane
+from axcomp.runtime.runtime import Runtime
 
 LINE = tuple(float(x) for x in range(-100, 101, 50))
 BAD = [float("nan"), float("inf"), float("-inf"), 1e15, -1e15, 1e308]

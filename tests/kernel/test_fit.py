@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.compile import compile_tables
 from axcomp.kernel.cycle import cycle
 from axcomp.kernel.fit import tables_fit
 from axcomp.kernel.record import Vec, fields_of, zero
 from axcomp.kernel.records import Outputs, State, Tables
 from axcomp.lists import read_machine
-from axcomp.machine import Machine
-from axcomp.runtime import initial_inputs
+from axcomp.model.machine import Machine
+from axcomp.runtime.compile import compile_tables
+from axcomp.runtime.runtime import initial_inputs
 
 MODELS = Path(__file__).parents[2] / "models"
 WRONG = (-(2**31), -1, 10**6, 2**31 - 1)

@@ -7,8 +7,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from axcomp.machine import Axis, AxisType, Friction, Machine, ModuloRange
-from axcomp.runtime import Runtime
+from axcomp.model.machine import Axis, AxisType, Friction, Machine, ModuloRange
+from axcomp.runtime.runtime import Runtime
 
 T = 1e-3
 VELOCITIES, CURRENTS = (0.5, 2.0, 10.0, 50.0), (1.0, 0.4, 0.7, 2.0)

@@ -6,7 +6,7 @@ from driving import drive, soft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.machine import Axis, Cross, CrosstalkCurve, Leadscrew, Machine, Plane
+from axcomp.model.machine import Axis, Cross, CrosstalkCurve, Leadscrew, Machine, Plane
 
 N = 8
 

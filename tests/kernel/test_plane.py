@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.machine import Axis, Machine, Plane
+from axcomp.model.machine import Axis, Machine, Plane
 
 
 def machine(corrections: np.ndarray, start: tuple[float, float], interval: tuple[float, float], **options) -> Machine:

@@ -7,8 +7,18 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from strategies import machines
 
-from axcomp.machine import Axis, Cross, Crosstalk, CrosstalkCurve, Friction, Leadscrew, Machine, ModuloRange, Plane
-from axcomp.runtime import Runtime
+from axcomp.model.machine import (
+    Axis,
+    Cross,
+    Crosstalk,
+    CrosstalkCurve,
+    Friction,
+    Leadscrew,
+    Machine,
+    ModuloRange,
+    Plane,
+)
+from axcomp.runtime.runtime import Runtime
 
 EVENTS = (
     "referenced",

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
-from axcomp.machine import Axis, Cross, CrosstalkCurve, Friction, Leadscrew, Machine, Plane
+from axcomp.model.machine import Axis, Cross, CrosstalkCurve, Friction, Leadscrew, Machine, Plane
 
 N = 6
 

@@ -22,7 +22,7 @@ from finding_cases import (
 
 from axcomp.lists import CODES, Finding, Reading, Severity
 from axcomp.lists.findings import LIMIT, Findings
-from axcomp.machine import Axis
+from axcomp.model.machine import Axis
 
 ReadLists = Callable[..., Reading]
 

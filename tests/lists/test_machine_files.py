@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from axcomp.lists import Reading, list_files, read_machine
-from axcomp.machine import AxisType, ModuloRange
+from axcomp.model.machine import AxisType, ModuloRange
 
 ReadLists = Callable[..., Reading]
 

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from strategies import machines
 
-from axcomp.compile import compile_tables
 from axcomp.lists import ListError, Severity, format_compensation_list, read_machine, write_machine
-from axcomp.machine import Axis, Cross, Leadscrew, Machine, Plane
+from axcomp.model.machine import Axis, Cross, Leadscrew, Machine, Plane
+from axcomp.runtime.compile import compile_tables
 
 
 @given(machines())

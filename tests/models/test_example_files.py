@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.engine import Engine
-from axcomp.examples.files import EXPECTED, INPUT, read_csv, write_expected, write_input, write_lists
-from axcomp.examples.machines import MACHINES
-from axcomp.examples.trajectories import TRAJECTORIES
+from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv, write_expected, write_input, write_lists
+from axcomp.demo.examples.machines import MACHINES
+from axcomp.demo.examples.trajectories import TRAJECTORIES
+from axcomp.engine.engine import Engine
 from axcomp.lists import read_machine
 from axcomp.lists.findings import Severity
-from axcomp.machine import KINDS, Crosstalk, CrosstalkCurve
-from axcomp.measurement.simulated import load_plant
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import KINDS, Crosstalk, CrosstalkCurve
+from axcomp.plant.simulated import load_plant
 
 MODELS = sorted(TRAJECTORIES)
 MANUALS = models() / "manual_examples"

@@ -13,12 +13,12 @@ from fmpy.fmi1 import FMICallException
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine import Engine
-from axcomp.examples.files import EXPECTED, INPUT, read_csv
-from axcomp.examples.trajectories import TRAJECTORIES
+from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv
+from axcomp.demo.examples.trajectories import TRAJECTORIES
+from axcomp.engine.engine import Engine
 from axcomp.fmu.native_package import package_native
-from axcomp.machine import Machine
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import Machine
 
 Rows = list[dict[str, Any]]
 

@@ -13,10 +13,10 @@ import pytest
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine import Engine
+from axcomp.engine.engine import Engine
 from axcomp.fmu.native_package import write_image
 from axcomp.lists import write_machine
-from axcomp.machine import Axis, Cross, Machine
+from axcomp.model.machine import Axis, Cross, Machine
 from axcomp.native.image import HEADER_BEFORE_CHECK
 
 REFUSED = 902

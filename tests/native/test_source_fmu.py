@@ -13,7 +13,7 @@ import pytest
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine import Engine
+from axcomp.engine.engine import Engine
 from axcomp.native.compiler import PLATFORMS, own_platform
 
 COMPILERS = {

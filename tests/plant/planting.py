@@ -3,18 +3,10 @@
 from __future__ import annotations
 
 import copy
-import importlib
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from axcomp.measurement.simulated import load_plant
-from axcomp.places import models
-
-load_plant(models() / "three_axis")  # makes the package importable
-Plant: Any = importlib.import_module("plant_model.machine").Plant
-PlantError: type[ValueError] = importlib.import_module("plant_model.machine").PlantError
-geometry: Any = importlib.import_module("plant_model.geometry")
-curves: Any = importlib.import_module("plant_model.curves")
+from axcomp.plant.machine import Plant
 
 AXIS: dict[str, Any] = {
     "name": "X",

@@ -9,8 +9,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from axcomp.fmu.package import package_plant
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.plant.fmu import package_plant
 
 DRIVE = """
 import sys

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from planting import Plant, PlantError, axis, curves
+from planting import axis
 from scipy.spatial.transform import Rotation
 
-rigid_bodies: Any = importlib.import_module("plant_model.rigid_bodies")
-poses: Any = importlib.import_module("plant_model.poses")
+from axcomp.plant import curves, poses, rigid_bodies
+from axcomp.plant.machine import Plant, PlantError
 
 NAMES = ("X", "Y", "Z", "A", "B", "C")
 ROTARY = (False, False, False, True, True, True)

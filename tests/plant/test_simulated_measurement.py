@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from axcomp.measurement.motion import Course, Limits, Setpoints, move
-from axcomp.measurement.simulated import (
+from axcomp.engine.motion import Course, Limits, Setpoints, move
+from axcomp.model.companions import models
+from axcomp.plant.simulated import (
     CYCLE_TIME,
     Plant,
     acceleration_test,
@@ -20,7 +21,6 @@ from axcomp.measurement.simulated import (
     positioning,
     straightness,
 )
-from axcomp.places import models
 
 MODEL = models() / "three_axis"
 

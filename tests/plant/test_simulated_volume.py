@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from planting import curves
 from scipy.spatial.transform import Rotation
 
-from axcomp.measurement.simulated import Plant, load_plant
-from axcomp.measurement.simulated_volume import IsoErrors, linear_axis_errors, table_errors
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.plant import curves
+from axcomp.plant.machine import Plant
+from axcomp.plant.simulated import load_plant
+from axcomp.plant.simulated_volume import IsoErrors, linear_axis_errors, table_errors
 
 MODEL = models() / "five_axis"
 TARGETS = np.linspace(-200.0, 0.0, 9)

@@ -17,10 +17,10 @@ import pytest
 
 from axcomp.cli import main
 from axcomp.lists import write_machine
-from axcomp.machine import Axis, AxisType, Cross, Friction, Leadscrew, Machine, ModuloRange
-from axcomp.places import models
+from axcomp.model.companions import models
+from axcomp.model.machine import Axis, AxisType, Cross, Friction, Leadscrew, Machine, ModuloRange
+from axcomp.model.volumetric import ErrorTable, Volumetric
 from axcomp.report.report import make_report
-from axcomp.volumetric import ErrorTable, Volumetric
 
 Capture = pytest.CaptureFixture[str]
 

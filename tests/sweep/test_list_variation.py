@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from axcomp import read_machine
-from axcomp.places import models
+from axcomp.model.companions import models
 from axcomp.sweep.list_variation import ListEntry, Table, read_files
 
 LIST = b"""\

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from axcomp.places import models
+from axcomp.model.companions import models
 from axcomp.sweep.errors import SpecError
 from axcomp.sweep.spec import Spec, read_spec
 from axcomp.sweep.sweep import job_of

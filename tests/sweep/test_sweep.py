@@ -14,7 +14,7 @@ import pytest
 
 from axcomp import Engine
 from axcomp.fmu.package import package_axcomp
-from axcomp.places import models
+from axcomp.model.companions import models
 from axcomp.sweep.journal import Journal, keys_of
 from axcomp.sweep.spec import ERROR, read_spec
 from axcomp.sweep.sweep import job_of, run_sweep

@@ -15,9 +15,9 @@ from scipy.spatial.transform import Rotation
 
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_model import FRAME, carry_to_workpiece
-from axcomp.machine import Axis, AxisType, Machine
-from axcomp.runtime import Runtime
-from axcomp.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Volumetric
+from axcomp.model.machine import Axis, AxisType, Machine
+from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Volumetric
+from axcomp.runtime.runtime import Runtime
 
 Matrix = NDArray[np.float64]
 NUMBERS = {letter: number for number, letter in enumerate(LETTERS, 1)}

@@ -8,7 +8,7 @@ from axcomp.lists.etalon import read_etalon, write_etalon
 from axcomp.lists.findings import Finding, Findings, Severity
 from axcomp.lists.isg_csv import read_isg_csv, write_isg_csv
 from axcomp.lists.volumetric_blocks import ParameterBlock
-from axcomp.volumetric import LETTERS, PARAMETERS
+from axcomp.model.volumetric import LETTERS, PARAMETERS
 
 Block = tuple[tuple[str, ...], tuple[str, ...], list[list[float]]]
 

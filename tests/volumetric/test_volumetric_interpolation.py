@@ -13,8 +13,8 @@ from scipy.interpolate import RegularGridInterpolator
 
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at, find_cell
-from axcomp.runtime import Runtime
-from axcomp.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation
+from axcomp.model.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation
+from axcomp.runtime.runtime import Runtime
 
 Array = NDArray[np.float64]
 KNOTS = st.lists(st.floats(-500, 500).map(lambda x: round(x, 3)), min_size=1, max_size=7, unique=True).map(sorted)

@@ -8,9 +8,9 @@ import pytest
 from numpy.typing import NDArray
 from rigid_bodies import machine_of, volumetric, with_constant_errors
 
-from axcomp.machine import Axis, AxisType, Machine
-from axcomp.runtime import Runtime, UpdateError
-from axcomp.volumetric import ErrorTable, Interpolation, Volumetric
+from axcomp.model.machine import Axis, AxisType, Machine
+from axcomp.model.volumetric import ErrorTable, Interpolation, Volumetric
+from axcomp.runtime.runtime import Runtime, UpdateError
 
 SHIFTS = {"X0X": 0.01, "Y0Y": 0.02, "Z0Z": -0.04}
 VALUES = np.array([-0.01, -0.02, 0.04])

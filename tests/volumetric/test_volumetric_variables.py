@@ -7,11 +7,11 @@ import pytest
 from fmpy.model_description import read_model_description
 from rigid_bodies import machine_of, volumetric
 
-from axcomp.engine import Engine
+from axcomp.engine.engine import Engine
 from axcomp.fmu.description import Description, model_description
-from axcomp.fmu.variables import Naming, by_name, variables_of
-from axcomp.machine import Machine
-from axcomp.volumetric import ErrorTable, Interpolation
+from axcomp.interface.variables import Naming, by_name, variables_of
+from axcomp.model.machine import Machine
+from axcomp.model.volumetric import ErrorTable, Interpolation
 
 DESCRIPTION = Description("axcomp", "Corrects", 0.001, "1.0")
 

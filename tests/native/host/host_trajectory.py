@@ -11,9 +11,9 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from axcomp import Engine, Machine
-from axcomp.compile import CYCLE_TIME
-from axcomp.fmu.variable import Variable
-from axcomp.fmu.variables import variables_of
+from axcomp.interface.variable import Variable
+from axcomp.interface.variables import variables_of
+from axcomp.runtime.compile import CYCLE_TIME
 
 Columns = Mapping[str, NDArray[Any]]
 NOT_GIVEN = ("reload",)

@@ -17,11 +17,11 @@ from strategies import machines
 
 from axcomp import Machine
 from axcomp.bench.machines import machine_of
-from axcomp.compile import compile_tables
-from axcomp.fmu.variable import BLOCK
-from axcomp.fmu.variables import variables_of
+from axcomp.interface.variable import BLOCK
+from axcomp.interface.variables import variables_of
 from axcomp.lists import read_machine
 from axcomp.native.image import image_of
+from axcomp.runtime.compile import compile_tables
 
 GUID = "{bits}"
 MODELS = Path(__file__).parents[3] / "models"

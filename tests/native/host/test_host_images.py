@@ -15,13 +15,13 @@ from host_program import ERROR, OK, Program, bits, real, text
 from host_trajectory import motion, write_trajectory
 
 from axcomp.bench.machines import machine_of
-from axcomp.compile import compile_tables
-from axcomp.fmu.variable import BLOCK
+from axcomp.interface.variable import BLOCK
 from axcomp.kernel.records import ERROR_UPDATE
 from axcomp.lists import read_machine
-from axcomp.machine import Leadscrew, Machine
+from axcomp.model.companions import models
+from axcomp.model.machine import Leadscrew, Machine
 from axcomp.native.image import image_of
-from axcomp.places import models
+from axcomp.runtime.compile import compile_tables
 
 GUID = "{3b2f6c1e-0000-4000-8000-00000000beef}"
 MACHINE = machine_of(3, 12)

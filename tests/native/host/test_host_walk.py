@@ -13,12 +13,12 @@ import pytest
 from host_program import ERROR, OK, Answer, Program, bits
 
 from axcomp.bench.machines import machine_of
-from axcomp.compile import compile_tables
-from axcomp.fmu.variable import BLOCK
-from axcomp.fmu.variables import AXIS_DECLARATIONS, OF_MACHINE
-from axcomp.machine import Machine
+from axcomp.interface.variable import BLOCK
+from axcomp.interface.variables import AXIS_DECLARATIONS, OF_MACHINE
+from axcomp.model.machine import Machine
 from axcomp.native.image import image_of
-from axcomp.runtime import Runtime
+from axcomp.runtime.compile import compile_tables
+from axcomp.runtime.runtime import Runtime
 
 GUID = "{3b2f6c1e-0000-4000-8000-00000000cafe}"
 INSTANCES, STATES, AXES = 3, 4, 2

@@ -1,0 +1,259 @@
+"""What the parameter files of a volumetric list hold, record by record, each with the place where it stands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path, PureWindowsPath
+from typing import NamedTuple
+
+from ...lists import Finding, Reading
+from ...lists.catalogue_volumetric import ETALON_EXCHANGE
+from ...lists.etalon import read_etalon
+from ...lists.files import Files
+from ...lists.findings import Findings
+from ...lists.isg_csv import read_isg_csv
+from ...lists.parameter import ListKind
+from ...lists.start_up import find_lists
+from ...lists.values import ListValues, read_values
+from ...lists.volumetric_blocks import ParameterBlock
+from ...lists.volumetric_parameters import Parameters, assemble
+from ...model.volumetric import AXIS_NUMBERS, COMPENSATIONS_MAX, DESCRIPTION, ERRORS, FILES_MAX, LETTERS, Interpolation
+
+FILE_NAME, MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
+"""P-STUP-00101 and P-STUP-00100."""
+
+_RANK = {name: rank for rank, name in enumerate(ERRORS + DESCRIPTION)}
+_POLYLINES = (Interpolation.PATH.value, Interpolation.PATH_XY.value)
+
+
+@dataclass(frozen=True)
+class VolumetricList:
+    """A volumetric list that a start-up list names.
+
+    Attributes
+    ----------
+    index : int
+        0..4, its place in the start-up list.
+    start_up, values : ListValues
+        What start-up list and volumetric list say.
+    path : Path
+        Of the volumetric list.
+    folder : Path
+        What file names are relative to.
+    """
+
+    index: int
+    start_up: ListValues
+    values: ListValues
+    path: Path
+    folder: Path
+
+    @property
+    def diagnosis_file(self) -> str:
+        """The file the list asks for (P-VOLC-00016), "" if it asks for none."""
+        return self.values.text("diagnosis_file")
+
+
+Position = tuple[float | None, ...]
+"""Of the axes in ``LETTERS``, mm or °; None for those a parameter does not depend on."""
+
+
+class Record(NamedTuple):
+    """One value of a parameter file.
+
+    Attributes
+    ----------
+    parameter : str
+        One of ``PARAMETERS``.
+    position : tuple of float or None, shape (6,)
+    value : float
+        mm, rad or a bare number.
+    line : int
+        Where it stands in its file.
+    note : str
+        Why it does not count, "" if it does.
+    """
+
+    parameter: str
+    position: Position
+    value: float
+    line: int
+    note: str
+
+
+@dataclass(frozen=True)
+class ParameterFile:
+    """A parameter file with its records, sorted by parameter (``ERRORS``, then ``DESCRIPTION``) and position.
+
+    Attributes
+    ----------
+    index : int
+        0..9, ``j`` of ``file[j]``.
+    path : Path
+        Where it lies, or its name alone if there is no such file.
+    was_read : bool
+        False if there is none, or it is no text.
+    records : tuple of Record
+        Those of a polyline in the order of the file.
+    """
+
+    index: int
+    path: Path
+    was_read: bool
+    records: tuple[Record, ...]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """All that was read for a volumetric compensation.
+
+    Attributes
+    ----------
+    source : VolumetricList
+    files : tuple of ParameterFile
+        In the order of the list.
+    counted, spliced : int
+        Records that count against ``max_records``, and how many of them ``enable_splicing`` has added.
+    axes : dict of str to (float, str)
+        Letter → logical axis number and where it stands: ``LN*`` in a parameter file beats the list.
+    in_force : bool
+        Whether no error keeps the compensation off.
+    findings : tuple of Finding
+        Those about the list and its files.
+    """
+
+    source: VolumetricList
+    files: tuple[ParameterFile, ...]
+    counted: int
+    spliced: int
+    axes: dict[str, tuple[float, str]]
+    in_force: bool
+    findings: tuple[Finding, ...]
+
+
+def volumetric_lists(path: str | PathLike[str]) -> tuple[list[VolumetricList], list[str]]:
+    """Return the volumetric lists of a machine, and a sentence for each that cannot be read. No record is read yet.
+
+    ``path`` is that of ``read_machine``; OSError or ValueError if it cannot be used.
+    """
+    findings = Findings()
+    files = Files(findings)
+    lists = find_lists(Path(path), files, findings)
+    found: list[VolumetricList] = []
+    faults: list[str] = []
+    start_up = lists.start_up
+    if start_up is None:
+        return found, faults
+    for index in range(COMPENSATIONS_MAX):
+        name = start_up.text(FILE_NAME, index)
+        list_path = files.named(lists.folder, name, ("", 0, "")) if name else None
+        text = None if list_path is None else files.text(list_path)
+        if list_path is not None and text is not None:
+            values = read_values(text, str(list_path), ListKind.VOLUMETRIC, findings)
+            found.append(VolumetricList(index, start_up, values, list_path, lists.folder))
+        elif name:
+            faults.append(f"the volumetric list {name!r}, which {Path(start_up.file).name} names, cannot be read.")
+    return found, faults
+
+
+def diagnose(source: VolumetricList, reading: Reading) -> Diagnosis:
+    """Read the parameter files of a list; ``reading``: of its machine."""
+    values = source.values
+    read = list(_parameter_files(source))
+    blocks = [block for _, _, held in read for block in held or ()]
+    mode = values.text("interpolation")
+    parameters = assemble(blocks, mode, enable_splicing=False, findings=Findings())
+    counted = parameters.records()
+    if values.flag("enable_splicing"):
+        counted = assemble(blocks, mode, enable_splicing=True, findings=Findings()).records()
+    notes = _Notes(values.text("chain").upper(), mode, blocks)
+    files = tuple(ParameterFile(j, path, held is not None, _sorted(held or [], notes)) for j, path, held in read)
+    names = {str(source.path), *(str(file.path) for file in files)}
+    entry = f"vol_comp[{source.index}]."
+    return Diagnosis(
+        source,
+        files,
+        counted,
+        counted - parameters.records(),
+        dict(_axes(values, parameters)),
+        any(one.index == source.index for one in reading.machine.volumetric),
+        tuple(finding for finding in reading.findings if finding.file in names or finding.parameter.startswith(entry)),
+    )
+
+
+def _parameter_files(source: VolumetricList) -> Iterator[tuple[int, Path, list[ParameterBlock] | None]]:
+    """Yield index, path and blocks (None: unreadable) of each file the list names; its faults are known already."""
+    findings = Findings()
+    files = Files(findings)
+    for j in range(FILES_MAX):
+        name = source.values.text("file[j]", j)
+        if not name:
+            continue
+        path = files.named(source.folder, name, ("", 0, ""))
+        text = None if path is None else files.text(path)
+        path = path or Path(PureWindowsPath(name).name)
+        etalon = source.values.text("file_format[j]", j) == ETALON_EXCHANGE
+        reader = read_etalon if etalon else read_isg_csv
+        yield j, path, None if text is None else reader(text, str(path), findings)
+
+
+def _axes(values: ListValues, parameters: Parameters) -> Iterator[tuple[str, tuple[float, str]]]:
+    for letter, name in zip(LETTERS, AXIS_NUMBERS, strict=True):
+        entry = letter.lower()
+        constant = parameters.description.get(name)
+        if constant is not None:
+            yield letter, (constant.value, f"{Path(constant.file).name}:{constant.line}")
+        elif values.given(entry):
+            yield letter, (values.integer(entry), f"{Path(values.file).name}:{values.line(entry)}")
+
+
+class _Notes:
+    """Knows which records do not count: others stand for them, or their axis takes no part."""
+
+    def __init__(self, chain: str, mode: str, blocks: Sequence[ParameterBlock]) -> None:
+        self._chain = chain
+        self._polylines = mode in _POLYLINES
+        self._last: dict[tuple[str, Position], tuple[ParameterBlock, int]] = {}
+        for block in blocks:
+            for i, position in enumerate(_positions(block)):
+                for name in block.names:
+                    self._last[name, position] = (block, i)
+
+    def note(self, block: ParameterBlock, i: int, name: str, position: Position) -> str:
+        """Return why the record of a parameter in row ``i`` of a block does not count, "" if it does."""
+        if block.arguments and self._polylines:
+            # A polyline may come back to a place: only the next record, at the same place, replaces one.
+            width = len(block.arguments)
+            again = i + 1 < len(block.rows) and block.rows[i + 1][:width] == block.rows[i][:width]
+            by, row = block, i + again
+        else:
+            by, row = self._last[name, position]
+        if by is not block or row != i:
+            return f"replaced by {Path(by.file).name}:{by.lines[row]}"
+        if name in ERRORS and name[-1] not in self._chain:
+            return f"not used: {name[-1]} is not in the chain {self._chain}"
+        return ""
+
+    def order(self, record: Record) -> tuple[int, tuple[float, ...]]:
+        """Return what to sort by: parameter, then position unless the order is that of a polyline."""
+        rank = _RANK[record.parameter]
+        return rank, () if self._polylines else tuple([-math.inf if x is None else x for x in record.position])
+
+
+def _positions(block: ParameterBlock) -> Iterator[Position]:
+    places = [block.arguments.index(letter) if letter in block.arguments else None for letter in LETTERS]
+    for row in block.rows:
+        yield tuple([None if place is None else row[place] for place in places])
+
+
+def _sorted(blocks: Sequence[ParameterBlock], notes: _Notes) -> tuple[Record, ...]:
+    found = [
+        Record(name, position, value, block.lines[i], notes.note(block, i, name, position))
+        for block in blocks
+        for i, position in enumerate(_positions(block))
+        for name, value in zip(block.names, block.rows[i][len(block.arguments) :], strict=True)
+    ]
+    return tuple(sorted(found, key=notes.order))

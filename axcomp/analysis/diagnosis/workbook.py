@@ -1,0 +1,204 @@
+"""A diagnosis as a workbook (ECMA-376): a sheet with the settings of the list, then one for each parameter file.
+
+Numbers are numbers, units stand in the header, which stays in sight. The same lists give the same bytes.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import zipfile
+from collections.abc import Iterable, Iterator, Sequence
+from datetime import datetime
+from pathlib import Path
+
+from openpyxl import Workbook
+from openpyxl.cell import Cell as OpenpyxlCell
+from openpyxl.cell import WriteOnlyCell
+from openpyxl.styles import Alignment, Font
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+from openpyxl.xml.functions import tostring
+
+from ...fmu.archive import generation_date, write_fmu
+from ...lists.catalogue import CATALOGUE, parameter
+from ...lists.parameter import ListKind, Parameter
+from ...model.volumetric import AXIS_NUMBERS, DIRECTIONS, FILES_MAX, LETTERS, LINEAR, TOOL_ORIENTATION, is_angle
+from .records import FILE_NAME, MAX_RECORDS, Diagnosis, ParameterFile, Record
+
+SETTINGS = "settings"
+"""Name of the first sheet."""
+
+SETTING_COLUMNS = ("entry", "value", "unit", "id", "meaning", "where")
+VALUE_COLUMNS = ("length [mm]", "angle [rad]", "number [1]")
+ROWS_MAX = 1_048_576
+"""Rows of a sheet, the header among them; what goes beyond is on a further sheet."""
+
+_PROPERTIES = "docProps/core.xml"
+_TITLE_MAX = 31
+_NOT_IN_TITLES = re.compile(r"[\[\]:*?/\\]")
+_NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_NUMBERS = frozenset((*TOOL_ORIENTATION, *(name for names in DIRECTIONS for name in names), *AXIS_NUMBERS))
+_BOLD, _WRAPPED = Font(bold=True), Alignment(wrap_text=True, vertical="top")
+
+Cell = str | float | None
+
+
+def write_workbook(diagnosis: Diagnosis, output: Path) -> None:
+    """Write a diagnosis; BuildError if the file cannot be written."""
+    # The archive of an FMU has no dates either: what makes those reproducible serves here too.
+    write_fmu(output, _parts(_workbook(diagnosis)))
+
+
+def _workbook(diagnosis: Diagnosis) -> Workbook:
+    book = Workbook(write_only=True)
+    source = diagnosis.source
+    book.properties.creator = "axcomp"
+    book.properties.title = _text(f"Volumetric compensation {source.index}: {source.path.name}")
+    _fill(book.create_sheet(SETTINGS), SETTING_COLUMNS, _settings(diagnosis), (34, 60, 10, 14, 46, 24))
+    for file in diagnosis.files:
+        columns = _Columns(file)
+        parts = range(0, max(1, len(file.records)), ROWS_MAX - 1)
+        for number, first in enumerate(parts):
+            sheet = book.create_sheet(_sheet_title(file, number))
+            records = file.records[first : first + ROWS_MAX - 1]
+            _fill(sheet, columns.header, map(columns.row, records), columns.widths)
+    return book
+
+
+def _parts(book: Workbook) -> dict[str, bytes]:
+    """Return what is in the archive of a workbook, without the time at which it was written."""
+    written = io.BytesIO()
+    book.save(written)
+    with zipfile.ZipFile(written) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    date = datetime.fromisoformat(generation_date()).replace(tzinfo=None)
+    book.properties.created = book.properties.modified = date
+    parts[_PROPERTIES] = tostring(book.properties.to_tree())
+    return parts
+
+
+def _fill(sheet: Worksheet, header: Sequence[str], rows: Iterable[Sequence[Cell]], widths: Sequence[int]) -> None:
+    sheet.freeze_panes = "A2"
+    for number, width in enumerate(widths, 1):
+        sheet.column_dimensions[get_column_letter(number)].width = width
+    head = [WriteOnlyCell(sheet, title) for title in header]
+    for cell in head:
+        cell.font = _BOLD
+    sheet.append(head)
+    count = 1
+    for row in rows:
+        sheet.append([_cell(sheet, value) for value in row])
+        count += 1
+    sheet.auto_filter.ref = f"A1:{get_column_letter(len(header))}{count}"
+
+
+def _cell(sheet: Worksheet, value: Cell) -> Cell | OpenpyxlCell:
+    """Return a cell that holds exactly this value: no formula made of text, and no digit less."""
+    if isinstance(value, float) and float(f"{value:.16g}") != value:
+        cell = WriteOnlyCell(sheet, repr(value))
+        cell.data_type = "n"
+        return cell
+    if not isinstance(value, str):
+        return value
+    text = _text(value)
+    if text[:1] in ("=", "#") or len(text) > 60:
+        cell = WriteOnlyCell(sheet, text)
+        cell.data_type = "s"
+        cell.alignment = _WRAPPED
+        return cell
+    return text
+
+
+def _text(text: str) -> str:
+    return _NOT_IN_XML.sub("\ufffd", text)
+
+
+def _sheet_title(file: ParameterFile, part: int) -> str:
+    """Return a name that begins with the index of the file, which makes it unique."""
+    number = f"{file.index}.{part + 1}" if part else f"{file.index}"
+    return _NOT_IN_TITLES.sub("_", _text(f"{number} {file.path.name}"))[:_TITLE_MAX].rstrip("'")
+
+
+class _Columns:
+    """The columns that the records of a file need."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        used = {place for record in file.records for place, x in enumerate(record.position) if x is not None}
+        self._places = sorted(used)
+        self._values = sorted({_value_column(record.parameter) for record in file.records})
+        units = ("mm" if letter in LINEAR else "°" for letter in LETTERS)
+        arguments = [f"{letter} [{unit}]" for letter, unit in zip(LETTERS, units, strict=True)]
+        self.header = (
+            "parameter",
+            *(arguments[place] for place in self._places),
+            *(VALUE_COLUMNS[place] for place in self._values),
+            "line",
+            "note",
+        )
+        self.widths = (12, *(12 for _ in self._places), *(16 for _ in self._values), 8, 40)
+
+    def row(self, record: Record) -> list[Cell]:
+        """Return the cells of a record."""
+        column = _value_column(record.parameter)
+        return [
+            record.parameter,
+            *(record.position[place] for place in self._places),
+            *(record.value if place == column else None for place in self._values),
+            record.line,
+            record.note or None,
+        ]
+
+
+def _value_column(name: str) -> int:
+    if name in _NUMBERS:
+        return 2
+    return 1 if is_angle(name) else 0
+
+
+def _settings(diagnosis: Diagnosis) -> Iterator[Sequence[Cell]]:
+    """Yield the rows of the first sheet: the list, its records, its entries, then what there is to say about them."""
+    source = diagnosis.source
+    start_up, values = source.start_up, source.values
+    for name, unit in ((FILE_NAME, ""), (MAX_RECORDS, "records")):
+        declared = parameter(ListKind.START_UP, name)
+        value = start_up.value(name, source.index)
+        where = _where(*start_up.place(name, source.index)) if start_up.given(name, source.index) else "default"
+        yield _row(declared, declared.named(source.index), value if isinstance(value, str) else int(value), where, unit)
+    yield "records used", diagnosis.counted, "records", None, "Records that count against max_records", None
+    yield "records spliced", diagnosis.spliced, "records", None, "Those among them that enable_splicing has added", None
+    state = "in force" if diagnosis.in_force else "off"
+    yield "state", state, None, None, "off: an error keeps the compensation off", None
+    for declared in CATALOGUE[ListKind.VOLUMETRIC]:
+        if declared.index_max:
+            for j in (j for j in range(FILES_MAX) if values.text("file[j]", j)):
+                value = values.text(declared.name, j)
+                where = _where(*values.place(declared.name, j)) if values.given(declared.name, j) else "default"
+                yield _row(declared, declared.named(j), value, where)
+        elif declared.name.upper() in diagnosis.axes:
+            number, where = diagnosis.axes[declared.name.upper()]
+            yield _row(declared, declared.name, number, where)
+        else:
+            value = values.value(declared.name)
+            where = _where(*values.place(declared.name)) if values.given(declared.name) else "default"
+            yield _row(declared, declared.name, value if isinstance(value, str) else int(value), where)
+    for finding in diagnosis.findings:
+        message = finding.message.replace(f"{source.folder}{os.sep}", "")
+        yield (
+            f"{finding.severity.value} {finding.code}",
+            message,
+            None,
+            None,
+            finding.parameter,
+            _where(finding.file, finding.line),
+        )
+
+
+def _row(declared: Parameter, name: str, value: Cell, where: str, unit: str = "") -> Sequence[Cell]:
+    identifier = next(iter(declared.ids.values()), "")
+    return name, value, unit or declared.unit or None, identifier or None, declared.meaning, where
+
+
+def _where(file: str, line: int) -> str:
+    return f"{Path(file).name}:{line}" if line else Path(file).name

@@ -1,0 +1,191 @@
+"""Coverage: positions and accelerations that an input file uses but a table does not hold.
+
+Outside its points a table holds its end values (semantics §5 … §8): the machine is then corrected by a guess.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from ...lists.findings import Findings
+from ...model.machine import Axis, AxisType, Crosstalk, CrosstalkCurve, Machine
+from ...model.volumetric import ErrorTable, Volumetric
+from .curves import PLANE_ENTRY, Array, curves_of, grids_of, unit_of
+from .places import ListPlaces, Place
+from .trajectory import column_of, setpoints
+
+TOLERANCE = 1e-6
+"""mm or °: what lies outside by less is rounding."""
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """What a file uses of a table's range.
+
+    Attributes
+    ----------
+    table : str
+        The table in words.
+    quantity, unit : str
+        Over what the range is: ``X`` in mm, ``acceleration of X`` in mm/s².
+    held : tuple of two floats
+        First and last point of the table.
+    used : tuple of two floats
+        Least and largest value in the file.
+    outside : float
+        Share of the file's rows outside the range, 0 … 1.
+    place : Place
+        Of the table in its list.
+    """
+
+    table: str
+    quantity: str
+    unit: str
+    held: tuple[float, float]
+    used: tuple[float, float]
+    outside: float
+    place: Place
+
+    @property
+    def message(self) -> str:
+        """Return the finding's sentence."""
+        beyond = [
+            f"{abs(used - held):g} {self.unit} {where}"
+            for used, held, where, is_out in (
+                (self.used[0], self.held[0], "below", self.used[0] < self.held[0] - TOLERANCE),
+                (self.used[1], self.held[1], "above", self.used[1] > self.held[1] + TOLERANCE),
+            )
+            if is_out
+        ]
+        return (
+            f"{self.quantity} goes from {self.used[0]:g} to {self.used[1]:g} {self.unit}, {self.table} from "
+            f"{self.held[0]:g} to {self.held[1]:g}: up to {' and '.join(beyond)}, and in "
+            f"{100.0 * self.outside:.3g} % of the rows its end value is held."
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the figures for JSON."""
+        names = ("table", "quantity", "unit", "held", "used", "outside")
+        return {name: getattr(self, name) for name in names}
+
+
+def coverage_of(machine: Machine, trajectory: Mapping[str, Array], places: ListPlaces) -> Iterator[Coverage]:
+    """Yield what a file uses of every table whose quantities it moves.
+
+    Parameters
+    ----------
+    machine : Machine
+        Whose tables.
+    trajectory : mapping of str to array, shape (rows,)
+        As ``sweep.trajectory.read_input(path).columns``: ``X.setpoint`` and the like in mm, °, mm/s² …
+    places : ListPlaces
+        Of its lists.
+
+    Raises
+    ------
+    ValueError
+        The file moves no axis of the machine.
+    """
+    moved = setpoints(trajectory, machine)
+    names = {axis.number: axis for axis in machine.axes}
+    seen = set()
+    for curve in curves_of(machine):
+        key = (curve.axis.number, curve.kind)
+        if key in seen or curve.over.number not in moved or curve.table.period is not None:
+            continue
+        seen.add(key)
+        place = places.of_table(curve.axis.number, curve.entry, 0)
+        name = curve.name.partition(",")[0]
+        yield _positions(name, curve.over, moved[curve.over.number], curve.table.positions, place)
+    for grid in grids_of(machine):
+        place = places.of_table(grid.axis.number, PLANE_ENTRY, 0, 0)
+        for over, points in ((grid.first, grid.across), (grid.second, grid.up)):
+            if over.number in moved:
+                yield _positions(grid.name, over, moved[over.number], points.tolist(), place)
+    for axis in machine.axes:
+        if axis.crosstalk is not None:
+            yield from _of_crosstalk(axis, axis.crosstalk, names, trajectory, moved, places)
+    for volumetric in machine.volumetric:
+        yield from _of_volumetric(volumetric, names, moved, places)
+
+
+def judge_coverage(
+    machine: Machine, trajectory: Mapping[str, Array], places: ListPlaces, findings: Findings
+) -> list[Coverage]:
+    """Note where a file leaves the tables, and return what it uses of each.
+
+    Raises
+    ------
+    ValueError
+        As ``coverage_of`` does.
+    """
+    results = list(coverage_of(machine, trajectory, places))
+    for result in results:
+        if result.outside > 0.0:
+            findings.add("AXC-COVERAGE", *result.place, f"{result.message[0].upper()}{result.message[1:]}")
+    return results
+
+
+def _positions(table: str, over: Axis, used: Array, points: tuple[float, ...] | list[float], place: Place) -> Coverage:
+    return _coverage(table, over.name, unit_of(over), (points[0], points[-1]), used, place)
+
+
+def _coverage(table: str, quantity: str, unit: str, held: tuple[float, float], used: Array, place: Place) -> Coverage:
+    outside = float(np.mean((used < held[0] - TOLERANCE) | (used > held[1] + TOLERANCE)))
+    return Coverage(table, quantity, unit, held, (float(used.min()), float(used.max())), outside, place)
+
+
+def _of_crosstalk(
+    axis: Axis,
+    crosstalk: Crosstalk | CrosstalkCurve,
+    names: dict[int, Axis],
+    trajectory: Mapping[str, Array],
+    moved: dict[int, Array],
+    places: ListPlaces,
+) -> Iterator[Coverage]:
+    name = f"the crosstalk table of {axis.name}"
+    master = names[crosstalk.master]
+    accelerations = column_of(trajectory, master, "acceleration")
+    if isinstance(crosstalk, CrosstalkCurve):
+        held = (crosstalk.accelerations[0], crosstalk.accelerations[-1])
+        place = places.of_table(axis.number, "kw.crosstalk.table[i].correction", 0)
+    else:
+        held = (crosstalk.deceleration, crosstalk.acceleration)
+        place = places.of_table(axis.number, "kw.crosstalk.acceleration")
+    if accelerations is not None:
+        yield _coverage(name, f"the acceleration of {master.name}", "mm/s²", held, accelerations, place)
+    if isinstance(crosstalk, CrosstalkCurve):
+        return
+    adaptations = ((crosstalk.adaptation1, "position1"), (crosstalk.adaptation2, "position2"))
+    for number, field in adaptations[: crosstalk.mode - 1]:
+        if number is not None and number in moved:
+            points = sorted(getattr(test, field) for test in crosstalk.tests)
+            yield _positions(name, names[number], moved[number], points, place)
+
+
+def _of_volumetric(
+    volumetric: Volumetric, names: dict[int, Axis], moved: dict[int, Array], places: ListPlaces
+) -> Iterator[Coverage]:
+    """Yield the coverage of each axis by the narrowest of its error tables."""
+    place = places.of_volumetric(volumetric.index)
+    for letter, number in volumetric.axes:
+        tables = [table for table in volumetric.errors if letter in table.arguments]
+        axis = names[number]
+        if number not in moved or not tables or (axis.type is not AxisType.TRANSLATORY and axis.modulo is not None):
+            continue
+        ranges = [_range(table, letter) for table in tables]
+        held = (max(low for low, _ in ranges), min(high for _, high in ranges))
+        offset = volumetric.offsets["XYZABC".index(letter)] * (1.0 if letter in "XYZ" else 180.0 / np.pi)
+        errors = " ".join(chain((table.name for table in tables[:3]), ["…"] if len(tables) > 3 else []))
+        name = f"volumetric compensation {volumetric.index} ({errors})"
+        yield _positions(name, axis, moved[number] + offset, held, place)
+
+
+def _range(table: ErrorTable, letter: str) -> tuple[float, float]:
+    positions = [node[table.arguments.index(letter)] for node in table.nodes]
+    return min(positions), max(positions)

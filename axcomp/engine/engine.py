@@ -1,0 +1,299 @@
+"""The engine on its own: step by step or over whole trajectories, with the names of the FMU's variables."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from operator import attrgetter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..interface.variable import Value, Variable, with_causality
+from ..interface.variables import Naming, by_name, record_of, variables_of
+from ..lists import Finding, read_machine
+from ..model.machine import Machine
+from ..native.library import compiled_kernel
+from ..native.runner import CompiledTables, run_compiled
+from ..runtime.compile import CYCLE_TIME
+from ..runtime.runtime import Runtime
+from .nc_control import NcControl
+from .nc_scanner import NcError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+COMMAND = "command"
+"""Column of a trajectory that has NC commands."""
+
+CHUNK = 4096
+"""Cycles whose outputs are kept as Python objects before they go into arrays."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """Outputs over a trajectory.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        Instants of the cycles, s.
+    values : mapping of str to ndarray, shape (n,)
+        Output variables by name: float, int or bool.
+    notices : tuple of str
+        What the run has to say, a sentence each.
+    """
+
+    time: NDArray[np.float64]
+    values: Mapping[str, NDArray[Any]]
+    notices: tuple[str, ...] = ()
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return the values of one variable, shape (n,)."""
+        return self.values[name]
+
+    def __len__(self) -> int:
+        """Return the number of cycles."""
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        return f"Result({len(self)} cycles of {len(self.values)} variables)"
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write time and all variables as CSV that reads back to the same bits."""
+        Path(path).write_text("".join(f"{line}\n" for line in self.csv_lines()), encoding="utf-8")
+
+    def csv_lines(self) -> Iterator[str]:
+        """Yield the lines that ``to_csv`` writes."""
+        columns = [self.time.tolist(), *(column.tolist() for column in self.values.values())]
+        yield ",".join(["time", *self.values])
+        for row in zip(*columns, strict=True):
+            yield ",".join(repr(float(value)) for value in row)
+
+
+class Engine:
+    """The compensations of a machine, cycle by cycle.
+
+    Parameters
+    ----------
+    machine : Machine or path
+        A path is read as ``axcomp.lists.read_machine`` does.
+    cycle_time : float
+        Of the position controller, s.
+    naming : str
+        ``structured`` or ``flat``, as the FMU's variables.
+
+    Attributes
+    ----------
+    machine : Machine
+    findings : tuple of Finding
+        What the reader had to say; empty for a Machine.
+    variables : tuple of Variable
+        Those of the FMU that are inputs or outputs of a cycle.
+    nc : NcControl
+        Carries out NC commands, and reads and writes the variables ``V.G.VOLCOMP[i]…``.
+
+    Raises
+    ------
+    CompileError
+        If a Machine made by hand cannot be run.
+    """
+
+    def __init__(
+        self, machine: Machine | str | os.PathLike[str], cycle_time: float = CYCLE_TIME, naming: Naming = "structured"
+    ) -> None:
+        self.findings: tuple[Finding, ...] = ()
+        lists = None
+        if not isinstance(machine, Machine):
+            lists = machine
+            reading = read_machine(machine)
+            machine, self.findings = reading.machine, tuple(reading.findings)
+        self.machine = machine
+        self.runtime = Runtime(machine, cycle_time)
+        self._compiled: CompiledTables | None = None
+        self.nc = NcControl(self.runtime, lists)
+        self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._record(v) is not None)
+        self._by_name = by_name(self.variables)
+        self._outputs = with_causality(self.variables, "output")
+
+    @property
+    def time(self) -> float:
+        """Instant of the next cycle, s."""
+        return self.runtime.start_time + self.runtime.cycles * self.runtime.tables.cycle_time
+
+    def set(self, values: Mapping[str, Value]) -> None:
+        """Set inputs by name; they are held until set again. KeyError with the known names for an unknown one."""
+        for name, value in values.items():
+            variable = self._input(name)
+            setattr(self._record(variable), variable.field, type(variable.start)(value))
+
+    def get(self) -> dict[str, Value]:
+        """Return all outputs of the last cycle by name."""
+        return {variable.name: getattr(self._record(variable), variable.field) for variable in self._outputs}
+
+    def step(self, values: Mapping[str, Value] | None = None, command: str = "") -> dict[str, Value]:
+        """Set inputs, carry out an NC command, run one cycle, and return its outputs by name.
+
+        NcError for a command that cannot be carried out.
+        """
+        self._cycle(values or {}, command)
+        return self.get()
+
+    def _cycle(self, values: Mapping[str, Value], command: str) -> tuple[str, ...]:
+        """Do what ``step`` does; return what the command has to say."""
+        self.set(values)
+        notices = self.nc.execute(command)
+        self.runtime.cycle()
+        self.nc.after_cycle()
+        return notices
+
+    def run(self, trajectory: Mapping[str, ArrayLike]) -> Result:
+        """Run one cycle for each row of a trajectory: the same bits as as many calls of ``step``.
+
+        The compiled kernel does it where there is one (see ``native.library``), else Python.
+
+        Parameters
+        ----------
+        trajectory : mapping of str to array_like, shape (n,)
+            Inputs by name; a ``time`` column is ignored, inputs that are not named are held. A column ``command`` has
+            NC commands, "" in most rows: they act in the cycle of their row.
+
+        Raises
+        ------
+        KeyError
+            For a name that is no input.
+        ValueError
+            If the columns differ in length, or a command is none; an UPDATE can be refused midway.
+        """
+        cycles = _length({name: column for name, column in trajectory.items() if name != "time"})
+        given = [self._input(name) for name in trajectory if name not in ("time", COMMAND)]
+        columns = [_column(variable, trajectory[variable.name]) for variable in given]
+        if not given:
+            given = [next(variable for variable in self.variables if variable.causality == "input")]
+            columns = [np.full(cycles, getattr(self._record(given[0]), given[0].field))]
+        blocks = [str(block) for block in np.asarray(trajectory.get(COMMAND, [])).tolist()]
+        for row, block in enumerate(blocks):
+            with _naming_row(row):
+                self.nc.check(block)
+        instants = np.arange(self.runtime.cycles, self.runtime.cycles + cycles, dtype=np.float64)
+        time = self.runtime.start_time + self.runtime.tables.cycle_time * instants
+        notices: list[str] = []
+        pieces = []
+        for first, last in _pieces(blocks, cycles):
+            rows = [column[first:last] for column in columns]
+            if first < len(blocks) and blocks[first].strip():
+                inputs = {variable.name: column.item() for variable, column in zip(given, rows, strict=True)}
+                with _naming_row(first):
+                    notices += self._cycle(inputs, blocks[first])
+                pieces.append({name: np.array([value]) for name, value in self.get().items()})
+            else:
+                pieces.append(self._run_piece(given, rows))
+        values = pieces[0]
+        if len(pieces) > 1:
+            values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
+        return Result(time, values, (*notices, *self.runtime.notices()))
+
+    def _run_piece(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """Run some rows, compiled if possible."""
+        kernel = compiled_kernel()
+        return self._run_in_python(given, columns) if kernel is None else self._run_compiled(kernel, given, columns)
+
+    def _run_compiled(
+        self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
+    ) -> dict[str, NDArray[Any]]:
+        if self._compiled is None or self._compiled.tables is not self.runtime.tables:
+            self._compiled = CompiledTables(self.runtime.tables)
+        rows = np.column_stack([column.astype(np.float64) for column in columns])
+        results = run_compiled(kernel, self._compiled, self.runtime, given, np.ascontiguousarray(rows), self._outputs)
+        return {v.name: results[:, k].astype(type(v.start)) for k, v in enumerate(self._outputs)}
+
+    def _run_in_python(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        cycles = len(columns[0])
+        setters = [(self._record(variable), variable.field) for variable in given]
+        groups = self._output_groups()
+        values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
+        run_cycle = self.runtime.cycle
+        for first in range(0, cycles, CHUNK):
+            last = min(first + CHUNK, cycles)
+            rows: list[list[tuple[Value, ...]]] = [[] for _ in groups]
+            for row in zip(*(column[first:last].tolist() for column in columns), strict=True):
+                for (record, field), value in zip(setters, row, strict=True):
+                    setattr(record, field, value)
+                run_cycle()
+                for group, kept in zip(groups, rows, strict=True):
+                    kept.append(group.read())
+            for group, kept in zip(groups, rows, strict=True):
+                for variable, column in zip(group.variables, zip(*kept, strict=True), strict=True):
+                    values[variable.name][first:last] = column
+        return values
+
+    def _record(self, variable: Variable) -> Any:
+        records = (self.runtime.inputs, self.runtime.outputs)
+        return record_of(variable, variable.axis, *records, volumetric=variable.volumetric)
+
+    def _input(self, name: str) -> Variable:
+        variable = self._by_name.get(name)
+        if variable is None or variable.causality != "input":
+            known = ", ".join(v.name for v in with_causality(self.variables, "input"))
+            raise KeyError(f"{name} is no input; the inputs are {known}")
+        return variable
+
+    def _output_groups(self) -> list[_OutputGroup]:
+        """Return the outputs record by record, so that one call reads all of an axis."""
+        by_record: dict[int, list[Variable]] = {}
+        for variable in self._outputs:
+            by_record.setdefault(id(self._record(variable)), []).append(variable)
+        return [_OutputGroup(self._reader(variables), variables) for variables in by_record.values()]
+
+    def _reader(self, variables: Sequence[Variable]) -> Callable[[], tuple[Value, ...]]:
+        """Return a function that reads the fields of one record, which is never a bare value but a tuple."""
+        record = self._record(variables[0])
+        if len(variables) == 1:
+            field = variables[0].field
+            return lambda: (getattr(record, field),)
+        return partial(attrgetter(*(variable.field for variable in variables)), record)
+
+
+class _OutputGroup(NamedTuple):
+    """The outputs of one record: ``read()`` returns their values."""
+
+    read: Callable[[], tuple[Value, ...]]
+    variables: list[Variable]
+
+
+def _length(columns: Mapping[str, ArrayLike]) -> int:
+    lengths = {name: np.shape(column) for name, column in columns.items()}
+    if not lengths:
+        raise ValueError("the trajectory has no input")
+    if len(set(lengths.values())) > 1 or any(len(shape) != 1 for shape in lengths.values()):
+        shapes = ", ".join(f"{name}: {shape}" for name, shape in lengths.items())
+        raise ValueError(f"the columns of a trajectory are one-dimensional and equally long, not {shapes}")
+    return int(next(iter(lengths.values()))[0])
+
+
+def _pieces(blocks: Sequence[str], cycles: int) -> list[tuple[int, int]]:
+    """Return first and last row + 1 of the pieces of a trajectory; one that begins with a command is that row alone."""
+    borders = {0, cycles}
+    for row, block in enumerate(blocks):
+        if block.strip():
+            borders |= {row, row + 1}
+    return list(pairwise(sorted(borders))) or [(0, 0)]
+
+
+@contextmanager
+def _naming_row(row: int) -> Iterator[None]:
+    """Put the row into the error of a command."""
+    try:
+        yield
+    except NcError as error:
+        raise ValueError(f"command in row {row}: {error}") from error
+
+
+def _column(variable: Variable, values: ArrayLike) -> NDArray[Any]:
+    return np.asarray(values).astype(type(variable.start))

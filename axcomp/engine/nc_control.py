@@ -1,0 +1,175 @@
+"""Carrying NC commands out on a running machine: a command acts in the next cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from os import PathLike
+from typing import Any
+
+from ..lists import Severity, reread_volumetric
+from ..model.machine import KINDS, Machine
+from ..runtime.runtime import Runtime
+from .nc_commands import AxisCommand, Command, Variable, VolumetricSwitch, VolumetricUpdate, parse_block, parse_variable
+from .nc_scanner import Cursor, NcError, scan
+
+WITHOUT_FRICTION = "70495"
+
+
+class NcControl:
+    """Switches the compensations of a machine by NC commands.
+
+    Parameters
+    ----------
+    runtime : Runtime
+    lists : path or None
+        Where ``UPDATE`` reads; None: there are no lists.
+    """
+
+    def __init__(self, runtime: Runtime, lists: str | PathLike[str] | None) -> None:
+        self._runtime = runtime
+        self._lists = lists
+        self._files: dict[tuple[int, int], str] = {}
+        self._held: list[tuple[Any, str, Any, Any]] = []
+
+    def check(self, block: str) -> tuple[Command, ...]:
+        """Return the commands of a block; NcError if they are none of this machine."""
+        commands = parse_block(block)
+        machine = self._runtime.machine
+        for command in commands:
+            if isinstance(command, AxisCommand):
+                _check_axis_command(command, machine)
+            elif isinstance(command, VolumetricSwitch | VolumetricUpdate | Variable):
+                self._check_index(command.index, command.place)
+            else:
+                self._check_index(command.variable.index, command.variable.place)
+                if isinstance(command.value, Variable):
+                    self._check_index(command.value.index, command.value.place)
+            if isinstance(command, VolumetricUpdate) and self._lists is None:
+                raise NcError(command.place, "UPDATE reads lists, but this machine was not read from any")
+        return commands
+
+    def execute(self, block: str) -> tuple[str, ...]:
+        """Carry a block out with the next cycle; return what it has to say, a sentence each.
+
+        Raises
+        ------
+        NcError
+            If the block is none, does not suit the machine, or an UPDATE is refused; what stands before it is done.
+        """
+        notices: list[str] = []
+        for command in self.check(block):
+            notices += self._execute(command)
+        return tuple(notices)
+
+    def after_cycle(self) -> None:
+        """Put back what held for the cycle of a command only, NO_MOVE and CFACT, unless it was set otherwise."""
+        for record, field, before, during in reversed(self._held):
+            if getattr(record, field) == during:
+                setattr(record, field, before)
+        self._held.clear()
+
+    def read(self, name: str) -> str | bool:
+        """Return the value of ``V.G.VOLCOMP[i].FILE[j]`` or ``.ACTIVE``; NcError for any other name."""
+        variable = _variable(name)
+        self._check_index(variable.index, variable.place)
+        return self._value(variable)
+
+    def write(self, name: str, value: str) -> None:
+        """Set ``V.G.VOLCOMP[i].FILE[j]``, for the next UPDATE; NcError for any other name."""
+        variable = _variable(name)
+        self._check_index(variable.index, variable.place)
+        if variable.file is None:
+            raise NcError(variable.place, f"{variable} can only be read")
+        self._files[variable.index, variable.file] = value
+
+    def _execute(self, command: Command) -> Iterator[str]:
+        if isinstance(command, AxisCommand):
+            yield from self._switch_axis(command)
+        elif isinstance(command, VolumetricSwitch):
+            for volumetric in self._runtime.machine.volumetric:
+                if command.index in (None, volumetric.index):
+                    self._switch_volumetric(volumetric.index, command)
+        elif isinstance(command, VolumetricUpdate):
+            yield from self._update(command)
+        elif isinstance(command, Variable):
+            yield f"{command} = {self._value(command)}"
+        else:
+            value = self._value(command.value) if isinstance(command.value, Variable) else command.value
+            self.write(str(command.variable), str(value))
+
+    def _switch_axis(self, command: AxisCommand) -> Iterator[str]:
+        runtime = self._runtime
+        index = _axis_index(command, runtime.machine)
+        given, state = runtime.inputs.axis[index], runtime.state.axis[index]
+        configured = [kind for kind in KINDS if getattr(runtime.tables.axis[index], kind).switching.configured]
+        if command.all_on:
+            listed = ", ".join(configured) or "nothing"
+            yield f"{command.axis}[COMP ON] names no kind of compensation: {listed} is switched on."
+        wanted = dict.fromkeys(configured if command.all_off else command.off, False)
+        wanted |= dict.fromkeys(configured if command.all_on else (), True) | dict.fromkeys(command.on, True)
+        self._hold(given, "no_move", command.no_move)
+        for kind, on in wanted.items():
+            if kind in configured:
+                setattr(given, f"{kind}_enable", on)
+                # Edges of the input are the commands: one that repeats the last needs its edge too.
+                getattr(state, kind).switching.enable = not on
+
+    def _switch_volumetric(self, index: int, command: VolumetricSwitch) -> None:
+        given, state = self._runtime.inputs.volumetric[index], self._runtime.state.volumetric[index]
+        given.enable = command.on
+        state.enable = not command.on
+        self._hold(given, "no_move", command.no_move)
+        for letter, factor in zip("xyz", command.factors, strict=True):
+            self._hold(given, f"factor_{letter}", factor)
+
+    def _hold(self, record: Any, field: str, value: Any) -> None:
+        self._held.append((record, field, getattr(record, field), value))
+        setattr(record, field, value)
+
+    def _update(self, command: VolumetricUpdate) -> Iterator[str]:
+        files = {j: name for (i, j), name in self._files.items() if i == command.index}
+        volumetric, findings = reread_volumetric(self._lists or "", command.index, files)
+        errors = [str(finding) for finding in findings if finding.severity is Severity.ERROR]
+        if volumetric is None:
+            what = f"volumetric compensation {command.index} keeps its old data"
+            raise NcError(command.place, "; ".join([what, *errors]))
+        self._runtime.update_volumetric(volumetric)
+        yield from (str(finding) for finding in findings)
+
+    def _value(self, variable: Variable) -> str | bool:
+        if variable.file is None:
+            return self._runtime.outputs.volumetric[variable.index].active
+        written = self._files.get((variable.index, variable.file))
+        if written is not None:
+            return written
+        one = next(one for one in self._runtime.machine.volumetric if one.index == variable.index)
+        return dict(enumerate(one.files)).get(variable.file, "")
+
+    def _check_index(self, index: int | None, place: int) -> None:
+        known = [one.index for one in self._runtime.machine.volumetric]
+        if index is not None and index not in known:
+            there = f"there is only {', '.join(map(str, known))}" if known else "there is none"
+            raise NcError(place, f"there is no volumetric compensation {index}: {there}", "70506")
+
+
+def _variable(name: str) -> Variable:
+    cursor = Cursor(scan(name))
+    variable = parse_variable(cursor)
+    cursor.expect_kind("end", "nothing more")
+    return variable
+
+
+def _axis_index(command: AxisCommand, machine: Machine) -> int:
+    for index, axis in enumerate(machine.axes):
+        if axis.name.upper() == command.axis:
+            return index
+    names = ", ".join(axis.name for axis in machine.axes)
+    raise NcError(command.place, f"an axis ({names}) is expected, not “{command.axis}”")
+
+
+def _check_axis_command(command: AxisCommand, machine: Machine) -> None:
+    axis = machine.axes[_axis_index(command, machine)]
+    for kind in command.on:
+        if getattr(axis, kind) is None:
+            code = WITHOUT_FRICTION if kind == "friction" else ""
+            raise NcError(command.place, f"axis {axis.name} has no {kind} compensation to switch on", code)

@@ -1,0 +1,214 @@
+"""The inputs of a run: columns of a file, or a motion that is generated, one value a cycle."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..lists.grammar import decode
+from .motion import Array, Course, Limits, Setpoints
+
+Columns = dict[str, npt.NDArray[Any]]
+"""Inputs by name, shape (cycles,): float64, or bool."""
+
+TIME = "time"
+_BOOLEANS = {"true": 1.0, "false": 0.0}
+_SETPOINT, _VELOCITY, _ACCELERATION, _ACTUAL = "setpoint", "velocity", "acceleration", "actual_position"
+
+
+class InputError(ValueError):
+    """An input file that cannot be used; the message begins with ``file:line:``."""
+
+
+@dataclass(frozen=True, eq=False)
+class InputFile:
+    """Inputs from a table with a column for each.
+
+    Attributes
+    ----------
+    columns : mapping of str to array, shape (rows,)
+        By name, without time.
+    time : array, shape (rows,), or None
+        Ascending, s; None: a row a cycle.
+    """
+
+    columns: Mapping[str, Array]
+    time: Array | None = None
+
+    def sampled(self, cycle_time: float, duration: float | None = None) -> Columns:
+        """Return a value a cycle: linear between the rows, after the last one held.
+
+        Without a duration there are as many cycles as the file has rows or its time has room for. Columns of zeros and
+        ones are not interpolated: what they switch comes with its row.
+        """
+        rows = len(next(iter(self.columns.values())))
+        at = np.arange(rows) * cycle_time if self.time is None else self.time - self.time[0]
+        cycles = _cycles(float(at[-1]) + cycle_time if duration is None else duration, cycle_time)
+        instants = np.arange(cycles) * cycle_time
+        held = np.searchsorted(at, instants * (1.0 + 1e-12) + 1e-9 * cycle_time, side="right") - 1
+        # Rows at the instants themselves are taken as they are, whatever rounding makes of their times.
+        exact = np.abs(at[held] - instants) <= 1e-6 * cycle_time
+        found: Columns = {}
+        for name, values in self.columns.items():
+            between = values[held] if _switches(values) else np.interp(instants, at, values)
+            found[name] = np.where(exact, values[held], between)
+        return found
+
+
+@dataclass(frozen=True)
+class Sine:
+    """Motion of an axis to and fro, mm or °; Hz, and ° at the start."""
+
+    centre: float
+    amplitude: float
+    frequency: float
+    phase: float = 0.0
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion that is generated.
+
+    Attributes
+    ----------
+    start : mapping of str to float
+        Where the axes of the moves begin, mm or °.
+    moves : sequence of mappings of str to float
+        Targets by axis, with ``velocity``, ``acceleration``, ``jerk`` of their own; or ``dwell`` in s. Over and over
+        again until the duration is over.
+    sines : mapping of str to Sine
+        By axis.
+    limits : Limits
+        Of the moves that say nothing else.
+    """
+
+    start: Mapping[str, float] = field(default_factory=dict)
+    moves: Sequence[Mapping[str, float]] = ()
+    sines: Mapping[str, Sine] = field(default_factory=dict)
+    limits: Limits = field(default_factory=Limits)
+
+    def sampled(self, cycle_time: float, duration: float | None = None) -> Columns:
+        """Return a value a cycle; without a duration the moves are made once."""
+        setpoints: dict[str, Setpoints] = {}
+        if self.start:
+            course = Course(self.start, cycle_time)
+            wanted = math.inf if duration is None else _cycles(duration, cycle_time)
+            while True:
+                before = course.cycles
+                self._once(course)
+                if duration is None or course.cycles >= wanted:
+                    break
+                if course.cycles == before:
+                    course.dwell((wanted - course.cycles) * cycle_time)
+            setpoints = course.setpoints()
+            duration = course.cycles * cycle_time if duration is None else duration
+        cycles = _cycles(duration or 0.0, cycle_time)
+        at = 2.0 * np.pi * np.arange(cycles) * cycle_time
+        for axis, sine in self.sines.items():
+            angle, speed = sine.frequency * at + np.radians(sine.phase), 2.0 * np.pi * sine.frequency
+            setpoints[axis] = Setpoints(
+                sine.centre + sine.amplitude * np.sin(angle),
+                sine.amplitude * speed * np.cos(angle),
+                -sine.amplitude * speed**2 * np.sin(angle),
+            )
+        found: Columns = {}
+        for axis, commands in setpoints.items():
+            found[f"{axis}.{_SETPOINT}"] = commands.position[:cycles]
+            found[f"{axis}.{_VELOCITY}"] = commands.velocity[:cycles]
+            found[f"{axis}.{_ACCELERATION}"] = commands.acceleration[:cycles]
+        return found
+
+    def _once(self, course: Course) -> None:
+        for step in self.moves:
+            if "dwell" in step:
+                course.dwell(step["dwell"])
+                continue
+            own = {name: step.get(name, getattr(self.limits, name)) for name in LIMITS}
+            course.move({axis: target for axis, target in step.items() if axis not in LIMITS}, Limits(**own))
+
+
+LIMITS = ("velocity", "acceleration", "jerk")
+
+
+def completed(columns: Columns, known: set[str], cycle_time: float) -> Columns:
+    """Return the inputs with what follows from the setpoints, where a machine knows it and it is not given.
+
+    Velocity and acceleration by central differences, the actual position equal to the setpoint.
+    """
+    found = dict(columns)
+    for name, position in columns.items():
+        prefix, _, last = name.rpartition(".")
+        if last != _SETPOINT:
+            continue
+        derived = Setpoints.through(np.asarray(position, dtype=np.float64), cycle_time)
+        for kind, values in ((_VELOCITY, derived.velocity), (_ACCELERATION, derived.acceleration), (_ACTUAL, position)):
+            if f"{prefix}.{kind}" in known:
+                found.setdefault(f"{prefix}.{kind}", values)
+    return found
+
+
+def read_input(path: Path) -> InputFile:
+    """Read a table with the inputs' names in its first row, as FMPy takes it.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, a row is incomplete, a cell is no number, or time does not ascend.
+    """
+    try:
+        text = decode(path.read_bytes())
+    except OSError as error:
+        raise InputError(f"{path}: The file cannot be read: {error.strerror or error}.") from None
+    if text is None:
+        raise InputError(f"{path}: The file is no text.")
+    separator = ";" if ";" in text.split("\n", 1)[0] else ","
+    names: list[str] = []
+    rows: list[list[float]] = []
+    for line, cells in enumerate(csv.reader(io.StringIO(text), delimiter=separator), 1):
+        if not any(cell.strip() for cell in cells):
+            continue
+        if not names:
+            names = [cell.strip() for cell in cells]
+            if len(set(names)) < len(names) or not all(names):
+                raise InputError(f"{path}:{line}: Every column needs a name of its own.")
+            continue
+        if len(cells) != len(names):
+            raise InputError(f"{path}:{line}: There are {len(cells)} cells for {len(names)} columns.")
+        rows.append([_number(path, line, name, cell) for name, cell in zip(names, cells, strict=True)])
+    if not rows:
+        raise InputError(f"{path}: There is no row of inputs in it.")
+    table = np.array(rows)
+    columns = {name: table[:, place] for place, name in enumerate(names)}
+    time = columns.pop(TIME, None)
+    if not columns:
+        raise InputError(f"{path}: There is no input besides {TIME}.")
+    if time is not None and (np.diff(time) <= 0.0).any():
+        raise InputError(f"{path}: {TIME} must ascend from row to row.")
+    return InputFile(columns, time)
+
+
+def _number(path: Path, line: int, name: str, cell: str) -> float:
+    word = cell.strip().lower()
+    try:
+        value = _BOOLEANS[word] if word in _BOOLEANS else float(word)
+    except ValueError:
+        raise InputError(f"{path}:{line}: {cell!r} is no number, as {name} has to be.") from None
+    if name == TIME and not math.isfinite(value):
+        raise InputError(f"{path}:{line}: {cell!r} is no time in s.")
+    return value
+
+
+def _switches(values: Array) -> bool:
+    return bool(np.isin(values, (0.0, 1.0)).all())
+
+
+def _cycles(duration: float, cycle_time: float) -> int:
+    return max(1, round(duration / cycle_time))

@@ -1,4 +1,0 @@
-"""The example machines in ``models/``: their lists, made from simulated measurements, their inputs and outputs.
-
-``python -m axcomp.examples`` writes them again.
-"""

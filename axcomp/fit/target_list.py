@@ -1,0 +1,250 @@
+"""The compensation list a new table goes into: what it says already, and the list with the new table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+from ..lists import Reading, cross, crosstalk, friction, leadscrew, plane, read_machine
+from ..lists.axes import Axes, AxisSettings
+from ..lists.catalogue import CATALOGUE, parameter
+from ..lists.compensation import CompensationList
+from ..lists.edit import edited
+from ..lists.files import Files
+from ..lists.findings import Findings, Severity
+from ..lists.format import Lines
+from ..lists.grammar import decode
+from ..lists.parameter import ListKind, key_of
+from ..lists.start_up import START_UP_NAME, find_lists
+from ..lists.values import ListValues, read_values
+from ..measurement.columns import MeasurementError
+from ..model.machine import Axis, AxisType, ModuloRange
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """How a kind of compensation stands in a list: its reader and writer, and what its entries begin with."""
+
+    read: Callable[[CompensationList], Any]
+    format: Callable[[Any, Lines], None]
+    prefix: str
+    heading: str
+    activated_by: str
+
+
+KINDS = {
+    "leadscrew": _Kind(
+        leadscrew.read_leadscrew, leadscrew.format_leadscrew, "kw.ssfk.", "Leadscrew compensation", "lr_param.ssfk"
+    ),
+    "cross": _Kind(cross.read_cross, cross.format_cross, "kw.crosscomp.", "Cross compensation", "lr_param.crosscomp"),
+    "plane": _Kind(plane.read_plane, plane.format_plane, "kw.crosscomp2.", "Plane compensation", "lr_param.crosscomp2"),
+    "crosstalk": _Kind(
+        crosstalk.read_crosstalk,
+        crosstalk.format_crosstalk,
+        "kw.crosstalk.",
+        "Crosstalk compensation",
+        "lr_param.crosstalk",
+    ),
+    "friction": _Kind(
+        friction.read_friction, friction.format_friction, "frict_comp.", "Friction compensation", "lr_param.frict_comp"
+    ),
+}
+
+_SETTINGS = {
+    "max_points": "max_points",
+    "manual_activation": "manual_activation",
+    "n_cycles": "n_cycles",
+    "modulo": "modulo",
+    "set_pos_without_comp": "without_other_compensations",
+    "position_delay": "position_delay",
+    "reversal_lookahead": "reversal_lookahead",
+    "scaling_factor": "scaling",
+    "delay_cycles": "delay_cycles",
+}
+"""What a measurement says nothing about and a new table leaves as it is: end of the entry's name, and field."""
+
+_PLACES = ("positions", "start1", "start2", "interval1", "interval2", "velocities")
+"""Fields that say what the rows of a table are for."""
+
+
+class TargetList:
+    """A compensation list that is to get a new table.
+
+    Attributes
+    ----------
+    path : Path
+    exists : bool
+        False: it will be made.
+    values : ListValues
+        What it says; "kw.ssfk.max_points" and so on by ``values.integer``.
+    number : int
+        Logical number of its axis.
+    reading : Reading or None
+        The machine it belongs to: that of the ``hochlauf.lis`` beside it which names it, else the list alone.
+    axis : Axis or None
+        Its axis there; None for a new list.
+    unit : str
+        Unit of the axis' positions, "" where no axis list says it.
+    """
+
+    def __init__(self, path: str | Path, number: int | None = None, name: str = "") -> None:
+        """Open a list; ``number`` and ``name`` of the axis are for one that does not exist yet.
+
+        Raises
+        ------
+        MeasurementError
+            The list cannot be read, or says nothing or something else about the axis' number.
+        """
+        self.path = Path(path)
+        self.exists = self.path.exists()
+        self._data = self._read() if self.exists else b""
+        text = decode(self._data)
+        if text is None:
+            raise MeasurementError(str(path), 0, "The list is no text.")
+        self.values = read_values(text, str(path), ListKind.COMPENSATION, Findings())
+        written = self.values.integer("kopf.achs_nr")
+        if not written and not number:
+            sentence = "The list does not say which axis it is for (kopf.achs_nr); give the axis' logical number."
+            raise MeasurementError(str(path), 0, sentence)
+        if written and number and written != number:
+            line = self.values.line("kopf.achs_nr")
+            raise MeasurementError(str(path), line, f"The list is for axis {written}, not {number}.")
+        self.number = written or number or 0
+        self._header = {} if written else {"kopf.achs_nr": str(self.number)}
+        if name and not written:
+            self._header["kopf.log_achs_name"] = f'"{name}"'
+        self.reading: Reading | None = None
+        self.axis: Axis | None = None
+        self.unit = ""
+        if self.exists:
+            self._find_machine()
+
+    def _read(self) -> bytes:
+        try:
+            return self.path.read_bytes()
+        except OSError as error:
+            raise MeasurementError(str(self.path), 0, f"The list cannot be read: {error.strerror or error}.") from error
+
+    def _find_machine(self) -> None:
+        siblings = self.path.parent.iterdir()
+        start_up = next((entry for entry in siblings if entry.name.lower() == START_UP_NAME), None)
+        named = start_up is not None and self._is_named_in(start_up)
+        self.reading = read_machine(start_up if named and start_up is not None else self.path)
+        axes = self.reading.machine.axes
+        self.axis = next((axis for axis in axes if axis.number == self.number), None)
+        if named and self.axis is not None:
+            self.unit = self.axis.unit
+
+    def _is_named_in(self, start_up: Path) -> bool:
+        findings = Findings()
+        return any(self._is_this(named.path) for named in find_lists(start_up, Files(findings), findings).compensation)
+
+    def _is_this(self, file: str | Path) -> bool:
+        return Path(file).resolve() == self.path.resolve()
+
+    def notes(self, kind: str) -> list[str]:
+        """Return what was wrong with the list, and what keeps a new table from acting."""
+        if self.reading is None:
+            return []
+        about = [finding for finding in self.reading.findings if self._is_this(finding.file)]
+        errors = sum(finding.severity is Severity.ERROR for finding in about)
+        notes = [f"The list had {errors} errors before; axcomp check says which."] if errors else []
+        inactive = any(f.code in ("AXC-INACTIVE", "70495") and KINDS[kind].prefix in f.parameter for f in about)
+        if inactive and self.present(kind) is None:
+            notes.append(f"{KINDS[kind].activated_by} of the axis list has to be 1 for the table to act.")
+        return notes
+
+    def capacity(self, name: str) -> int:
+        """Return how many entries the list reserves by a parameter ``…max_points``; 0 stands for the default."""
+        return self.values.integer(name) or int(parameter(ListKind.COMPENSATION, name).default)
+
+    def check_unit(self, unit: str) -> None:
+        """Raise MeasurementError if the axis is known not to count in ``unit``."""
+        if self.unit and self.unit != unit:
+            raise MeasurementError(str(self.path), 0, f"The axis counts in {self.unit}, the measurement in {unit}.")
+
+    def present(self, kind: str) -> Any:
+        """Return the compensation of a kind that acts now, None if there is none."""
+        return None if self.axis is None else getattr(self.axis, kind)
+
+    def with_compensation(self, kind: str, compensation: Any, max_points: int | None = None) -> bytes:
+        """Return the list with a new compensation; what a measurement says nothing about stays as it is.
+
+        Parameters
+        ----------
+        kind : str
+            One of ``KINDS``.
+        compensation : Leadscrew, Cross, Plane, Crosstalk or Friction
+            Its ``max_points``, ``manual_activation`` and the like do not count: the list's do.
+        max_points : int, optional
+            Entries to reserve, where the list is to say so from now on.
+
+        Raises
+        ------
+        ValueError
+            A list cannot hold a value, or would not read back to what is meant.
+        """
+        how = KINDS[kind]
+        lines = Lines(ListKind.COMPENSATION)
+        if max_points is not None:
+            compensation = replace(compensation, max_points=max_points)
+        how.format(compensation, lines)
+        owned = {
+            row.name
+            for row in CATALOGUE[ListKind.COMPENSATION]
+            if row.name.startswith(how.prefix) and self._is_owned(row.name, kind, max_points is not None)
+        }
+        keys = {key_of(name) for name in owned}
+        new = [line for line in lines.text().split("\n") if key_of(line.partition(" ")[0]) in keys]
+        data = self._data
+        if self._header:
+            header = [f"{name:<40} {value}" for name, value in self._header.items()]
+            data = edited(data, header, self._header, "Axis", keep_row_comments=True)
+        data = edited(data, new, owned, how.heading, self._rows_stay(kind, compensation))
+        self._check(kind, compensation, data, max_points is not None)
+        return data
+
+    @staticmethod
+    def _is_owned(name: str, kind: str, with_max_points: bool) -> bool:
+        end = name.rpartition(".")[2]
+        if end == "max_points":
+            return with_max_points or kind == "crosstalk"
+        return end not in _SETTINGS
+
+    def _rows_stay(self, kind: str, compensation: Any) -> bool:
+        """Tell whether the rows of a table are for the same positions as before."""
+        before = self._parsed(kind, self.values)
+        names = [name for name in _PLACES if hasattr(compensation, name)]
+        return (
+            type(before) is type(compensation)
+            and bool(names)
+            and all(getattr(before, name) == getattr(compensation, name) for name in names)
+        )
+
+    def _parsed(self, kind: str, values: ListValues) -> Any:
+        """Return the compensation that a list's values describe for a metric, translatory axis."""
+        findings = Findings()
+        axis = AxisSettings(self.number, type=AxisType.TRANSLATORY, modulo=self._modulo())
+        axes = Axes(findings, invent=True)
+        axes.add(axis, self.values.file, 0, "")
+        return KINDS[kind].read(CompensationList(values, axis, axes, findings))
+
+    def _modulo(self) -> ModuloRange | None:
+        return ModuloRange(-1e9, 1e9) if self.axis is None or self.axis.modulo is None else self.axis.modulo
+
+    def _check(self, kind: str, intended: Any, data: bytes, with_max_points: bool) -> None:
+        """Read the new list and compare: a list with a damaged group could hide what is put into it."""
+        text = decode(data)
+        assert text is not None
+        values = read_values(text, str(self.path), ListKind.COMPENSATION, Findings())
+        found = self._parsed(kind, values)
+        if type(found) is type(intended):
+            names = {field.name for field in fields(intended)}
+            kept = {name for name in _SETTINGS.values() if name in names}
+            if with_max_points or kind == "crosstalk":
+                kept.discard("max_points")
+            if replace(intended, **{name: getattr(found, name) for name in kept}) == found:
+                return
+        raise ValueError(f"{self.path}: with the new {kind} table the list would not say what is meant; is it damaged?")

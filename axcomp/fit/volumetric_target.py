@@ -1,0 +1,158 @@
+"""The volumetric list that identified errors go into, and its parameter file."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+from ..lists.axes import Axes
+from ..lists.catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
+from ..lists.edit import edited
+from ..lists.etalon import read_etalon, write_etalon
+from ..lists.files import Files
+from ..lists.findings import Finding, Findings, Severity
+from ..lists.isg_csv import read_isg_csv, write_isg_csv
+from ..lists.parameter import ListKind
+from ..lists.start_up import START_UP_NAME, MachineFiles, find_lists
+from ..lists.values import read_values
+from ..lists.volumetric_list import VolumetricReader
+from ..lists.volumetric_parameters import assemble
+from ..lists.volumetric_writer import blocks_of, format_volumetric_list, parameter_file
+from ..measurement.columns import MeasurementError, read_text
+from ..model.volumetric import COMPENSATIONS_MAX, FILES_MAX, Interpolation, Volumetric
+
+_FILE_NAME = "vol_comp[i].file_name"
+_INDEX = re.compile(r"([0-9])\D*\Z")
+
+_HARMLESS = ("AXC-NO-RECORD", "AXC-MISSING", "AXC-EMPTY", "AXC-MAX-RECORDS")
+"""Errors of a list whose parameters are still to come."""
+
+
+class VolumetricTarget:
+    """A volumetric list, with the kinematics it describes.
+
+    Attributes
+    ----------
+    path : Path
+        The list.
+    parameters : Path
+        Its parameter file.
+    volumetric : Volumetric
+        What both say so far.
+    reserved : int
+        Records that the start-up list reserves; 0 where there is none.
+    """
+
+    def __init__(self, path: str | Path, new: Volumetric | None = None) -> None:
+        """Open a list; ``new`` describes the kinematics for one that does not exist yet.
+
+        Raises
+        ------
+        MeasurementError
+            The list cannot be read or has errors, or its parameters do not stand in one file over grids.
+        """
+        self.path = Path(path)
+        self._exists = self.path.exists()
+        self._data = b""
+        self._etalon = False
+        self._splicing = False
+        self._comments = ""
+        self._names_file = True
+        self.reserved = 0
+        if self._exists:
+            self._open()
+            return
+        if new is None:
+            raise MeasurementError(str(path), 0, "There is no such list; give the chain and its axes to make one.")
+        found = _INDEX.search(self.path.stem)
+        index = min(int(found[1]), COMPENSATIONS_MAX - 1) if found else 0
+        self.volumetric = replace(new, index=index)
+        self.parameters = self.path.parent / parameter_file(self.volumetric)
+
+    def _open(self) -> None:
+        findings = Findings()
+        files = Files(findings)
+        text = read_text(self.path)
+        self._data = self.path.read_bytes()
+        lists, index = self._machine(files)
+        values = read_values(text, str(self.path), ListKind.VOLUMETRIC, findings)
+        if lists.start_up is not None:
+            self.reserved = lists.start_up.integer("vol_comp[i].max_records", index)
+        axes = Axes(findings, invent=True)
+        self.volumetric = VolumetricReader(index, values, lists, files, axes, findings).read()
+        names = [values.text("file[j]", j) for j in range(FILES_MAX) if values.text("file[j]", j)]
+        if len(names) > 1 or (names and not values.text("file[j]", 0)):
+            sentence = "The parameters stand in several files; put them into file[0] to have them replaced."
+            raise MeasurementError(str(self.path), values.line("file[j]", 0), sentence)
+        mode = values.text("interpolation")
+        if mode not in (Interpolation.GRID.value, AUTO):
+            sentence = f"The list interpolates by {mode}; identified errors stand on grids and need GRID or AUTO."
+            raise MeasurementError(str(self.path), values.line("interpolation"), sentence)
+        self._refuse_errors(findings.all())
+        self._splicing = values.flag("enable_splicing")
+        self._etalon = values.text("file_format[j]", 0) == ETALON_EXCHANGE
+        self._names_file = bool(names)
+        named = files.named(lists.folder, names[0], (str(self.path), 0, "file[0]")) if names else None
+        default = (names[0] if names else f"{self.path.stem}.csv").replace("\\", "/")
+        self.parameters = named or lists.folder / default
+        if self.parameters.exists() and not self._etalon:
+            self._comments = _leading_comments(read_text(self.parameters))
+
+    def _machine(self, files: Files) -> tuple[MachineFiles, int]:
+        """Return the machine the list belongs to, and its place there."""
+        folder = self.path.parent
+        start_up = next((entry for entry in folder.iterdir() if entry.name.lower() == START_UP_NAME), None)
+        if start_up is not None:
+            lists = find_lists(start_up, files, Findings())
+            for index in range(COMPENSATIONS_MAX):
+                name = lists.start_up.text(_FILE_NAME, index) if lists.start_up is not None else ""
+                path = files.named(lists.folder, name, ("", 0, "")) if name else None
+                if path is not None and path.resolve() == self.path.resolve():
+                    return lists, index
+        return MachineFiles(folder), 0
+
+    def _refuse_errors(self, findings: tuple[Finding, ...]) -> None:
+        for finding in findings:
+            if finding.severity is Severity.ERROR and finding.code not in _HARMLESS:
+                raise MeasurementError(finding.file, finding.line, finding.message)
+
+    def with_errors(self, volumetric: Volumetric) -> tuple[bytes, bytes | None]:
+        """Return the parameter file and the list for new errors; no list where the old one serves.
+
+        Raises
+        ------
+        ValueError
+            The parameters would not read back to what is meant.
+        """
+        blocks = blocks_of(volumetric)
+        text = write_etalon(blocks) if self._etalon else self._comments + write_isg_csv(blocks)
+        findings = Findings()
+        again = (read_etalon if self._etalon else read_isg_csv)(text, str(self.parameters), findings)
+        found = assemble(again, Interpolation.GRID.value, self._splicing, findings)
+        intended = {table.name: table for table in volumetric.errors}
+        if (
+            findings.errors()
+            or found.errors != intended
+            or len(found.description) < len(tuple(volumetric.description()))
+        ):
+            raise ValueError(f"{self.parameters}: the parameters would not read back to what is meant")
+        return text.encode(), self._list(volumetric)
+
+    def _list(self, volumetric: Volumetric) -> bytes | None:
+        if not self._exists:
+            return format_volumetric_list(volumetric).encode()
+        if self._names_file:
+            return None
+        new = [f"{'file[0]':<40} {self.parameters.name}", f"{'file_format[0]':<40} {ISG_CSV}"]
+        return edited(self._data, new, ["file[j]", "file_format[j]"], "Parameters", True, ListKind.VOLUMETRIC)
+
+
+def _leading_comments(text: str) -> str:
+    """Return the comment lines a file begins with."""
+    lines = []
+    for line in text.split("\n"):
+        if line.strip() and not line.lstrip().startswith("//"):
+            break
+        lines.append(line + "\n")
+    return "".join(lines) if any(line.strip() for line in lines) else ""

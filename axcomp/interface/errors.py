@@ -1,0 +1,37 @@
+"""What the numbers of the output ``error`` mean."""
+
+from __future__ import annotations
+
+from ..kernel.records import (
+    ERROR_CROSS_POINTS,
+    ERROR_FRICTION_POINTS,
+    ERROR_INPUT,
+    ERROR_LEADSCREW_POINTS,
+    ERROR_PLANE_POINTS,
+    ERROR_UPDATE,
+)
+from ..kernel.volumetric_records import ERROR_LIMIT_EXCEEDED, ERROR_LIMIT_UNDEFINED, ERROR_PROGRAM_END, ERROR_SINGULAR
+
+POINTS_ERRORS = {
+    "leadscrew": ERROR_LEADSCREW_POINTS,
+    "cross": ERROR_CROSS_POINTS,
+    "plane": ERROR_PLANE_POINTS,
+    "friction": ERROR_FRICTION_POINTS,
+}
+
+ERROR_CALL = 903  # AXC-903
+
+ERRORS = {
+    ERROR_INPUT: "An input of the axis is not a finite number; its outputs are held",
+    ERROR_UPDATE: "The lists read by `reload` are refused, the old ones stay in force; the log says why",
+    ERROR_CALL: "A call of the FMU could not be carried out; the log says why",
+    ERROR_LIMIT_UNDEFINED: "A volumetric compensation cannot be switched on: the axis has no s_limit (P-AXIS-00525)",
+    ERROR_LIMIT_EXCEEDED: "A volumetric correction was above the axis' s_limit; it is held, the compensation is off",
+    ERROR_SINGULAR: "X, Y and Z cannot move the tool in three directions here; a volumetric compensation is off",
+    ERROR_PROGRAM_END: "The program ended while a volumetric compensation of its channel was on; it is off",
+    **{
+        number: f"`reload` changes max_points of the {kind} compensation; the axis keeps its old lists"
+        for kind, number in POINTS_ERRORS.items()
+    },
+}
+"""Number → meaning, in the order of the reference page."""

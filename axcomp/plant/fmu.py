@@ -1,0 +1,81 @@
+"""The plant's FMU: its variables, from the declarations that its slave uses, and its package."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ..fmu.archive import BuildError, file_bytes, generation_date
+from ..fmu.content import PACKAGE, version
+from ..fmu.description import Description
+from ..fmu.package import write_python_fmu
+from ..interface.variable import Variable
+from ..interface.variables import identifier
+from ..model.companions import fmu_sources
+from . import variables as declared
+from .machine import FILE_NAME, Plant
+
+STEP_SIZE = 0.001
+
+
+def read_plant(folder: Path) -> tuple[tuple[Variable, ...], Path]:
+    """Return the variables of the plant in a model's folder, and the file that describes it.
+
+    Raises
+    ------
+    BuildError
+        If the file is missing or wrong.
+    """
+    file = folder / FILE_NAME
+    try:
+        plant = Plant.from_file(file)
+    except ValueError as error:
+        raise BuildError(str(error)) from None
+    present = [d for d in declared.OF_AXIS if not d.of_bodies or plant.bodies]
+    variables = [
+        Variable(
+            f"{identifier(name)}.{declaration.name}",
+            declared.BLOCK * index + declared.OF_AXIS.index(declaration),
+            declaration.causality,
+            0.0,
+            declaration.description,
+            declaration.unit.format(unit),
+            depends_on=None,
+            axis=index,
+        )
+        for index, (name, unit) in enumerate(zip(plant.names, plant.units, strict=True))
+        for declaration in present
+    ]
+    if plant.bodies:
+        first = declared.BLOCK * len(plant.names)
+        variables += [
+            Variable(d.name, first + place, d.causality, 0.0, d.description, d.unit, depends_on=None)
+            for place, d in enumerate(declared.OF_MACHINE)
+        ]
+    return tuple(variables), file
+
+
+def package_plant(
+    model: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    external_tool: bool = True,
+) -> Path:
+    """Write the FMU of the plant that ``plant.json`` in a model's folder describes; a folder: ``plant.fmu`` in it.
+
+    Raises
+    ------
+    BuildError
+        If the description is missing or wrong, pythonfmu is missing, or the file cannot be written.
+    """
+    variables, file = read_plant(Path(model))
+    description = Description(
+        name="plant",
+        text="Drives, friction and geometric errors of a machine",
+        step_size=STEP_SIZE,
+        version=version(),
+        generated=generation_date(),
+        capabilities={"needsExecutionTool": external_tool},
+    )
+    sources = (fmu_sources() / "plant_slave.py", PACKAGE)
+    return write_python_fmu(output, description, variables, sources, {file.name: file_bytes(file)})

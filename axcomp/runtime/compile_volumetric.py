@@ -1,0 +1,233 @@
+"""Volumetric → the kernel's tables: errors over the same nodes share a block, so that one search serves them all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ..kernel.records import Tables
+from ..kernel.volumetric_records import (
+    INTERPOLATE_GRID,
+    INTERPOLATE_PATH,
+    INTERPOLATE_SCATTER,
+    ErrorBlock,
+    VolumetricTable,
+)
+from ..model.machine import Machine
+from ..model.volumetric import (
+    COMPENSATIONS_MAX,
+    ERRORS,
+    LENGTH_MAX,
+    LETTERS,
+    LINEAR,
+    ROTARY,
+    UNIT_TOLERANCE,
+    ErrorTable,
+    Interpolation,
+    Volumetric,
+    is_grid,
+    largest,
+)
+from .compile_pool import CompileError, append
+
+FULL_TURN = 360.0
+SHORTEST = 1e-9  # mm or °; along less than this, searching is left to the bisection
+
+_INTERPOLATIONS = {
+    Interpolation.GRID: INTERPOLATE_GRID,
+    Interpolation.SCATTER: INTERPOLATE_SCATTER,
+    Interpolation.PATH: INTERPOLATE_PATH,
+    Interpolation.PATH_XY: INTERPOLATE_PATH,
+}
+
+
+def compile_volumetric(machine: Machine, tables: Tables) -> None:
+    """Fill the volumetric tables of a machine.
+
+    Raises
+    ------
+    CompileError
+        If an axis is missing, the chain is none, nodes are no grid or twice the same, or a number is out of range.
+    """
+    indices = [volumetric.index for volumetric in machine.volumetric]
+    if len(set(indices)) < len(indices) or not set(indices) <= set(range(COMPENSATIONS_MAX)):
+        raise CompileError(
+            f"volumetric compensations have different numbers 0 … {COMPENSATIONS_MAX - 1}, not {indices}"
+        )
+    tables.volumetrics = max(indices, default=-1) + 1
+    for volumetric in machine.volumetric:
+        _Compiler(machine, volumetric, tables).compile()
+
+
+def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
+    """Return for each equal step along the knots the last knot that is in an earlier step, 0 if there is none."""
+    before: list[float] = []
+    for i, knot in enumerate(knots):
+        # The same operations as in the kernel: rounding then never puts a position and its knot in a wrong order.
+        step = int((knot - knots[0]) * steps_per_unit)
+        before += [max(i - 1.0, 0.0)] * (step + 1 - len(before))
+    before += [len(knots) - 1.0] * (len(knots) + 1 - len(before))
+    return before
+
+
+class _Compiler:
+    """Fills the tables of one compensation."""
+
+    def __init__(self, machine: Machine, volumetric: Volumetric, tables: Tables) -> None:
+        self.machine = machine
+        self.volumetric = volumetric
+        self.table = tables.volumetric[volumetric.index]
+        self.pool = tables.pool
+
+    def compile(self) -> None:
+        volumetric, table = self.volumetric, self.table
+        self._require(volumetric.filter_steps >= 0, "filter_steps is not negative")
+        table.configured = True
+        table.manual = volumetric.manual_activation
+        table.associated = volumetric.associate_to_channel
+        table.cycles = max(1, volumetric.filter_steps)
+        self._axes()
+        self._model(table)
+        for d, letter in enumerate(LINEAR):
+            sign = -1.0 if letter in volumetric.negate else 1.0
+            table.sign[d] = 0.0 if letter in volumetric.set_to_zero else sign
+        self._errors()
+
+    def _axes(self) -> None:
+        """Assign machine axes to letters; gantry slaves follow their masters."""
+        volumetric, table = self.volumetric, self.table
+        chain, assigned = volumetric.chain, [letter for letter, _ in volumetric.axes]
+        self._require(
+            len(set(chain)) == len(chain) and set(LINEAR) <= set(chain) <= set(LETTERS),
+            f"the chain is X, Y, Z and some of A, B, C, each once, not {chain}",
+        )
+        self._require(set(chain) <= set(assigned), f"an axis of the chain {chain} is not assigned")
+        self._require(set(assigned) <= set(LETTERS), "axes are called X, Y, Z, A, B, C")
+        self._require(0 <= volumetric.workpiece_axes <= len(chain), "workpiece_axes is larger than the chain")
+        numbers = [number for _, number in volumetric.axes]
+        self._require(len(set(numbers)) == len(numbers), "an axis is assigned twice")
+        table.chain_length = len(chain)
+        table.chain[: len(chain)] = [LETTERS.index(letter) for letter in chain]
+        table.workpiece_axes = volumetric.workpiece_axes
+        from_tool = [letter for letter in reversed(chain) if letter in LINEAR]
+        table.column[:] = [from_tool.index(letter) for letter in LINEAR]
+        for letter, number in volumetric.axes:
+            try:
+                table.axis[LETTERS.index(letter)] = self.machine.index_of(number)
+            except KeyError:
+                raise CompileError(f"{self._name()}: its axis {letter} = {number} does not exist") from None
+        for m, (place, letter) in enumerate(self.machine.members(volumetric).items()):
+            table.member[m] = place
+            table.member_letter[m] = LETTERS.index(letter)
+            table.member_limit[m] = self.machine.axes[place].volumetric_limit or 0.0
+            table.members = m + 1
+
+    def _model(self, table: VolumetricTable) -> None:
+        volumetric = self.volumetric
+        table.alternative = volumetric.alternative_model
+        table.tool_position[:] = self._lengths(volumetric.tool_position)
+        if any(volumetric.tool_orientation):
+            table.tool_orientation[:] = self._unit(volumetric.tool_orientation)
+        table.center[:] = self._lengths([x for center in volumetric.centers for x in center])
+        table.direction[:] = [x for direction in volumetric.directions for x in self._unit(direction)]
+        offsets = self._lengths(volumetric.offsets)
+        table.offset[:] = [math.degrees(x) if LETTERS[d] in ROTARY else x for d, x in enumerate(offsets)]
+        self._require(
+            len(table.center) == 9 and len(table.direction) == 18 and len(table.offset) == 6, "a vector lacks"
+        )
+
+    def _errors(self) -> None:
+        """Sort the errors that act into constants and blocks."""
+        names = [error.name for error in self.volumetric.errors]
+        self._require(len(set(names)) == len(names), "an error has two tables")
+        constants: list[tuple[int, float]] = []
+        blocks: dict[tuple[str, Interpolation, tuple[tuple[float, ...], ...]], list[ErrorTable]] = {}
+        for error in self.volumetric.errors:
+            self._check(error)
+            if error.name[-1] not in self.volumetric.chain or not any(error.values):
+                continue
+            if error.arguments:
+                blocks.setdefault((error.arguments, error.interpolation, error.nodes), []).append(error)
+            else:
+                constants.append((ERRORS.index(error.name), error.values[0]))
+        table = self.table
+        acting = {error.name[-1] for error in self.volumetric.errors if any(error.values)}
+        table.exact[:] = [letter not in acting for letter in LETTERS]
+        table.constants = len(constants)
+        table.constant = self._append([float(number) for number, _ in constants])
+        self._append([value for _, value in constants])
+        table.blocks = len(blocks)
+        for block, errors in zip(table.block, blocks.values(), strict=False):
+            self._block(block, errors)
+
+    def _check(self, error: ErrorTable) -> None:
+        name, assigned = error.name, [letter for letter, _ in self.volumetric.axes]
+        self._require(name in ERRORS, f"{name} is no error")
+        self._require(len(error.nodes) == len(error.values) > 0, f"{name} has not one value for each node")
+        self._require(len(set(error.arguments)) == len(error.arguments), f"{name} depends on an axis twice")
+        self._require(set(error.arguments) <= set(assigned), f"{name} depends on an axis that is not assigned")
+        self._require(
+            all(
+                len(node) == len(error.arguments) and max(map(abs, node), default=0.0) <= LENGTH_MAX
+                for node in error.nodes
+            ),
+            f"{name} has a node that is no position of {error.arguments}",
+        )
+        bound = largest(name)
+        self._require(all(abs(value) <= bound for value in error.values), f"{name} has a value beyond ±{bound:g}")
+        if error.interpolation in (Interpolation.PATH, Interpolation.PATH_XY):
+            self._require(set(error.arguments) <= set(LINEAR), f"{name} has no path over {error.arguments}")
+            self._require(
+                all(a != b for a, b in zip(error.nodes, error.nodes[1:], strict=False)), f"{name} stands still"
+            )
+        else:
+            self._require(len(set(error.nodes)) == len(error.nodes), f"{name} has two values at one node")
+        if error.interpolation is Interpolation.GRID:
+            self._require(is_grid(error.nodes), f"the nodes of {name} fill no grid")
+
+    def _block(self, block: ErrorBlock, errors: Sequence[ErrorTable]) -> None:
+        first = errors[0]
+        nodes = first.nodes
+        order = list(range(len(nodes)))
+        block.interpolation = _INTERPOLATIONS[first.interpolation]
+        block.nodes = len(nodes)
+        block.errors = len(errors)
+        block.error = self._append([float(ERRORS.index(error.name)) for error in errors])
+        block.arguments = len(first.arguments)
+        for d, letter in enumerate(first.arguments):
+            block.argument[d] = LETTERS.index(letter)
+            positions = [node[d] for node in nodes]
+            block.folded[d] = letter in ROTARY and min(positions) <= 0.0 and max(positions) >= FULL_TURN
+        if first.interpolation is Interpolation.GRID:
+            order.sort(key=nodes.__getitem__)
+            for d in range(block.arguments):
+                knots = sorted({node[d] for node in nodes})
+                block.points[d] = len(knots)
+                block.knots[d] = self._append(knots)
+                if len(knots) > 1:
+                    length = knots[-1] - knots[0]
+                    block.steps_per_unit[d] = (len(knots) - 1) / length if length > SHORTEST else 0.0
+                    block.steps[d] = self._append(_knots_before(knots, block.steps_per_unit[d]))
+        else:
+            block.knots[0] = self._append([x for node in nodes for x in node])
+        block.values = self._append([error.values[n] for n in order for error in errors])
+
+    def _append(self, values: Sequence[float]) -> int:
+        return append(self.pool, values, self._name())
+
+    def _lengths(self, values: Sequence[float]) -> Sequence[float]:
+        self._require(all(abs(value) <= LENGTH_MAX for value in values), f"a length is beyond {LENGTH_MAX:g} mm")
+        return values
+
+    def _unit(self, vector: Sequence[float]) -> list[float]:
+        """Return a direction scaled as exactly as floats allow: the model inverts rotations by transposing them."""
+        length = math.hypot(*vector)
+        self._require(abs(length - 1.0) <= UNIT_TOLERANCE, f"the direction {vector} is not scaled to length 1")
+        return [x / length for x in vector]
+
+    def _name(self) -> str:
+        return f"volumetric compensation {self.volumetric.index}"
+
+    def _require(self, condition: bool, message: str) -> None:
+        if not condition:
+            raise CompileError(f"{self._name()}: {message}")

@@ -1,0 +1,180 @@
+"""A machine in operation: tables, state, inputs and outputs, the clock, snapshots and updates.
+
+The FMU's slave and the Engine are both thin layers over this. Standard library only.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..kernel.adopt import adopt_axis, adopt_volumetrics, update_error
+from ..kernel.cycle import cycle
+from ..kernel.initial import set_initial_inputs
+from ..kernel.record import zero
+from ..kernel.records import ERROR_UPDATE, Inputs, Outputs, State, Tables
+from ..kernel.volumetric_switching import adopt_volumetric
+from ..model.machine import Machine
+from ..model.volumetric import Volumetric
+from .compile import CYCLE_TIME, compile_tables
+from .snapshot import SnapshotError, identity_of, pack, unpack
+
+ON_INSTANT = 0.01
+"""Share of a cycle by which a communication point may miss the instant of a cycle: hosts add up their steps."""
+
+
+class UpdateError(ValueError):
+    """An update that does not fit the running machine; nothing was changed."""
+
+
+def initial_inputs(tables: Tables) -> Inputs:
+    """Return the inputs before anybody sets them."""
+    inputs = zero(Inputs)
+    del inputs.axis[tables.axis_count :]
+    del inputs.volumetric[tables.volumetrics :]
+    set_initial_inputs(tables, inputs)
+    return inputs
+
+
+class Runtime:
+    """A machine in operation.
+
+    Parameters
+    ----------
+    machine : Machine
+        Must compile (see ``compile_tables``).
+    cycle_time : float
+        Of the position controller in s.
+
+    Attributes
+    ----------
+    inputs : Inputs
+        Set them before ``advance``; they are held until set again.
+    outputs : Outputs
+        Of the last cycle.
+    """
+
+    def __init__(self, machine: Machine, cycle_time: float = CYCLE_TIME) -> None:
+        self.machine = machine
+        self.tables = compile_tables(machine, cycle_time)
+        self._identity: int | None = None
+        self.inputs = initial_inputs(self.tables)
+        self.state = zero(State)
+        self.outputs = zero(Outputs)
+        del self.state.axis[self.tables.axis_count :]
+        del self.outputs.axis[self.tables.axis_count :]
+        del self.state.volumetric[self.tables.volumetrics :]
+        del self.outputs.volumetric[self.tables.volumetrics :]
+        self.start_time = 0.0
+        self.cycles = 0
+        self._told: set[int] = set()
+
+    def begin(self, time: float = 0.0) -> None:
+        """Set the clock and compute the outputs of the first cycle without running it (end of initialization)."""
+        self.start_time = time
+        self.cycles = 0
+        cycle(self.tables, copy.deepcopy(self.state), self.inputs, self.outputs)
+
+    def cycle(self) -> None:
+        """Run one cycle: the outputs then belong to the present inputs."""
+        cycle(self.tables, self.state, self.inputs, self.outputs)
+        self.cycles += 1
+
+    def advance(self, time: float) -> None:
+        """Run the cycles whose instants lie before ``time`` (s) and have not been run, with the inputs held."""
+        due = math.ceil((time - self.start_time) / self.tables.cycle_time - ON_INSTANT)
+        while self.cycles < due:
+            self.cycle()
+
+    def save(self) -> bytes:
+        """Return a snapshot of everything that changes: state, inputs, outputs and the clock."""
+        clock = [self.start_time, float(self.cycles)]
+        return pack(self._machine_identity(), self.state, self.inputs, self.outputs, clock)
+
+    def restore(self, data: bytes) -> None:
+        """Go back to a snapshot of this machine; SnapshotError if it is none, and nothing has changed then.
+
+        The machine is the one in force: a snapshot from before an ``update`` belongs to another one.
+        """
+        clock = [0.0, 0.0]
+        unpack(data, self._machine_identity(), self.state, self.inputs, self.outputs, clock)
+        self.start_time = clock[0]
+        self.cycles = int(clock[1])
+
+    def _machine_identity(self) -> int:
+        if self._identity is None:
+            tables = self.tables
+            axes, volumetric = tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics]
+            pools = {id(pool): pool for pool in (tables.pool, *(axis.pool for axis in axes))}
+            self._identity = identity_of(tables.cycle_time, axes, volumetric, *pools.values())
+        return self._identity
+
+    def notices(self) -> Iterator[str]:
+        """Yield, once each, what the machine's user should know about the motion so far."""
+        for index, axis in enumerate(self.state.axis):
+            if axis.crosstalk.outside and index not in self._told:
+                self._told.add(index)
+                name = self.machine.axes[index].name
+                yield f"axis {name}: the adaptation axes of its crosstalk compensation have left the tests' positions"
+
+    def update(self, machine: Machine) -> dict[str, int]:
+        """Take new lists while the machine runs.
+
+        An axis whose ``max_points`` has changed keeps its old data, and its ``error`` says so.
+
+        Returns
+        -------
+        dict of str to int
+            Axis name → error (110638 … 110641) of the axes that keep their old data.
+
+        Raises
+        ------
+        UpdateError
+            If the axes are not the same, or a compensation is new: the variables of an FMU cannot change.
+        CompileError
+            If the machine cannot be run. Nothing has changed in either case.
+        """
+        if [(axis.number, axis.name, axis.type) for axis in machine.axes] != [
+            (axis.number, axis.name, axis.type) for axis in self.machine.axes
+        ]:
+            raise UpdateError("the new lists have other axes than the ones in force")
+        new = {volumetric.index for volumetric in machine.volumetric}
+        if not new <= {volumetric.index for volumetric in self.machine.volumetric}:
+            raise UpdateError("the new lists have a volumetric compensation that was not there")
+        before, after = self.tables, compile_tables(machine, self.tables.cycle_time)
+        errors = [update_error(*pair) for pair in zip(before.axis, after.axis, strict=True)]
+        if ERROR_UPDATE in errors:
+            name = machine.axes[errors.index(ERROR_UPDATE)].name
+            raise UpdateError(f"the new lists give axis {name} a compensation it did not have")
+        axes = list(machine.axes)
+        for index, error in enumerate(errors[: len(axes)]):
+            state, outputs = self.state.axis[index], self.outputs.axis[index]
+            if error == 0:
+                adopt_axis(before.axis[index], after.axis[index], state, outputs)
+            else:
+                after.axis[index] = before.axis[index]
+                axes[index] = self.machine.axes[index]
+            state.error = outputs.error = error
+        adopt_volumetrics(before, after, self.state, self.outputs)
+        self.machine, self.tables = replace(machine, axes=tuple(axes)), after
+        self._identity = None
+        return {axis.name: error for axis, error in zip(axes, errors, strict=False) if error}
+
+    def update_volumetric(self, volumetric: Volumetric) -> None:
+        """Take new data of one volumetric compensation, which is switched off for that without motion.
+
+        An automatic one then switches on again. CompileError if it cannot be run; nothing has changed then.
+        """
+        index = volumetric.index
+        others = (one for one in self.machine.volumetric if one.index != index)
+        machine = replace(self.machine, volumetric=tuple(sorted((*others, volumetric), key=lambda one: one.index)))
+        after = compile_tables(machine, self.tables.cycle_time)
+        adopt_volumetric(self.tables.volumetric[index], after.volumetric[index], self.state.volumetric[index])
+        self.outputs.volumetric[index].active = False
+        self.machine, self.tables = machine, after
+        self._identity = None
+
+
+__all__ = ["Runtime", "SnapshotError", "UpdateError", "initial_inputs"]

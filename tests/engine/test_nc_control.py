@@ -1,0 +1,239 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from axcomp.engine.engine import Engine, Result
+from axcomp.engine.nc_scanner import NcError
+from axcomp.lists import write_machine
+from axcomp.model.machine import Axis, AxisType, Cross, Friction, Leadscrew, Machine
+from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.runtime.runtime import UpdateError
+
+N = 20
+
+
+def machine(**parameters: Any) -> Machine:
+    """Return X with cross and leadscrew, Y with friction, Z, and two volumetric compensations of 0.01 and 0.1 mm."""
+    cross = Cross(2, (0.0, 1.0), (0.5, 0.5), n_cycles=4, manual_activation=True)
+    x = Axis(1, "X", volumetric_limit=1.0, cross=cross, leadscrew=Leadscrew((0.0, 1.0), (-2.0, -2.0)))
+    y = Axis(2, "Y-Achse", volumetric_limit=1.0, friction=Friction((0.0,), (100.0,)))
+    z = Axis(3, "Z", AxisType.TRANSLATORY, volumetric_limit=1.0)
+    axes = (("X", 1), ("Y", 2), ("Z", 3))
+    volumetric = tuple(
+        Volumetric(index, axes, errors=(ErrorTable("X0X", (-value,)),), **parameters)
+        for index, value in ((0, 0.01), (2, 0.1))
+    )
+    return Machine((x, y, z), volumetric)
+
+
+def run(engine: Engine, cycles: int, commands: dict[int, str], **inputs: Any) -> Result:
+    column = [commands.get(row, "") for row in range(cycles)]
+    return engine.run({"command": column, **{name.replace("__", "."): v for name, v in inputs.items()}})
+
+
+def test_axis_compensations_follow_their_commands() -> None:
+    engine = Engine(machine())
+    result = run(
+        engine, 20, {2: "X[COMP ON CROSS]", 8: "X[COMP OFF LEAD]", 12: "X[COMP OFF_ALL]", 15: "X[COMP ON LEAD]"}
+    )
+    ramp = np.sin(np.pi / 2 * np.clip(np.arange(20) - 1, 0, 4) / 4) ** 2
+    ramp[12:] = np.sin(np.pi / 2 * np.clip(4 - np.arange(1, 9), 0, 4) / 4) ** 2
+    assert result["X.cross.correction"] == pytest.approx(0.5 * ramp)
+    on = (np.arange(20) < 8) | (np.arange(20) >= 15)
+    assert result["X.leadscrew.correction"].tolist() == [2.0 * active for active in on]
+
+
+def test_several_axes_in_a_block() -> None:
+    engine = Engine(machine())
+    result = run(engine, 3, {1: "X[COMP OFF LEAD] \\\n Y-ACHSE[COMP OFF FRICT]"})
+    assert result["X.leadscrew.active"].tolist() == [True, False, False]
+    assert result["Y_Achse.friction.active"].tolist() == [True, False, False]
+
+
+def test_off_lasts_beyond_the_end_of_the_program() -> None:
+    engine = Engine(machine())
+    result = run(engine, 6, {1: "X[COMP OFF LEAD]"}, program_end=[False, False, True, False, True, False])
+    assert result["X.leadscrew.active"].tolist() == [True] + [False] * 5
+
+
+def test_a_command_can_be_repeated_after_the_end_of_the_program() -> None:
+    engine = Engine(machine())
+    program_end = np.arange(30) == 10
+    result = run(engine, 30, {0: "X[COMP ON CROSS]", 20: "X[COMP ON CROSS]"}, program_end=program_end)
+    active = result["X.cross.active"]
+    assert active[:10].all()
+    assert not active[15:20].any()
+    assert active[20:].all()
+
+
+def test_no_move_holds_for_its_command_only() -> None:
+    engine = Engine(machine())
+    result = run(engine, 12, {2: "X[COMP ON CROSS NO_MOVE]", 6: "X[COMP OFF LEAD]"})
+    assert result["X.corrected_setpoint"][:6] == pytest.approx([2.01 + 0.1] * 6)
+    assert result["X.setpoint_shift"][5] == -0.5
+    assert result["X.corrected_setpoint"][6] == pytest.approx(0.11)
+    assert engine.runtime.inputs.axis[0].no_move is False
+
+
+def test_comp_on_without_a_kind_switches_all_on_and_says_so() -> None:
+    engine = Engine(machine())
+    result = run(engine, 6, {0: "X[COMP OFF_ALL]", 1: "X[COMP ON]"})
+    assert result["X.leadscrew.active"].tolist() == [False] + [True] * 5
+    assert result["X.cross.active"].tolist() == [False] + [True] * 5
+    assert result.notices == ("X[COMP ON] names no kind of compensation: cross, leadscrew is switched on.",)
+
+
+def smooth(steps: Any) -> Any:
+    u = np.clip(np.asarray(steps) / N, 0, 1)
+    return 10 * u**3 - 15 * u**4 + 6 * u**5
+
+
+def test_volumetric_compensations_follow_their_commands() -> None:
+    engine = Engine(machine(manual_activation=True))
+    result = run(engine, 100, {5: "#VOLCOMP ON [ID=0]", 40: "#VOLCOMP ON [ID2 CFACT_X=0.5]", 70: "#VOLCOMP OFF ALL"})
+    k = np.arange(100)
+    first = 0.01 * np.where(k < 70, smooth(k - 4), smooth(N - (k - 69)))
+    second = 0.05 * np.where(k < 70, smooth(k - 39), smooth(N - (k - 69)))
+    assert result["X.volumetric.correction"] == pytest.approx(first + second, abs=1e-12)
+    assert not result["volumetric[2].active"][:40].any()
+    assert engine.runtime.inputs.volumetric[2].factor_x == 1.0
+
+
+def test_cfact_is_not_modal() -> None:
+    engine = Engine(machine(manual_activation=True, filter_steps=0))
+    result = run(engine, 6, {0: "#VOLCOMP ON [ID=2 CFACT_X=0.5]", 2: "#VOLCOMP OFF [ID=2]", 4: "#VOLCOMP ON [ID=2]"})
+    assert result["X.volumetric.correction"] == pytest.approx([0.05, 0.05, 0.0, 0.0, 0.1, 0.1])
+
+
+def test_volcomp_with_no_move_moves_nothing() -> None:
+    engine = Engine(machine(manual_activation=True))
+    result = run(engine, 60, {5: "#VOLCOMP ON [ID=2 NO_MOVE]", 30: "#VOLCOMP OFF [ID=2 NO_MOVE]"})
+    assert result["X.corrected_setpoint"] == pytest.approx([2.0] * 60)
+    assert result["X.setpoint_shift"][10] == pytest.approx(-0.1)
+
+
+def test_after_reset_a_compensation_needs_its_command() -> None:
+    engine = Engine(machine(filter_steps=0))
+    reset = np.arange(8) == 2
+    result = run(engine, 8, {5: "#VOLCOMP ON ALL"}, reset=reset)
+    assert result["volumetric[0].active"].tolist() == [True, True, False, False, False, True, True, True]
+    assert result["X.corrected_setpoint"] == pytest.approx([2.11] * 8)
+
+
+def test_a_run_with_commands_is_as_many_steps() -> None:
+    commands = ["", "X[COMP ON CROSS]", "", "#VOLCOMP OFF [ID=0 NO_MOVE]", "#VOLCOMP ON [ID=0 CFACT_X=0.3]", "", ""]
+    x = np.linspace(0.0, 1.0, 7)
+    no_move = [False, False, True, True, False, False, True]
+    result = Engine(machine()).run({"X.setpoint": x, "volumetric[0].no_move": no_move, "command": commands})
+    engine = Engine(machine())
+    steps = [
+        engine.step({"X.setpoint": q, "volumetric[0].no_move": held}, command)
+        for q, held, command in zip(x.tolist(), no_move, commands, strict=True)
+    ]
+    for name in steps[0]:
+        assert result[name].tolist() == [step[name] for step in steps]
+
+
+@pytest.mark.parametrize(
+    ("block", "place", "expected"),
+    [
+        ("Q[COMP ON CROSS]", 1, "an axis (X, Y-Achse, Z) is expected, not “Q”"),
+        ("X[COMP ON CROSS] Z[COMP ON LEAD]", 18, "axis Z has no leadscrew compensation"),
+        ("X[COMP ON FRICT]", 1, "error 70495: axis X has no friction compensation"),
+        ("#VOLCOMP ON [ID=1]", 1, "error 70506: there is no volumetric compensation 1: there is only 0, 2"),
+        ("V.G.VOLCOMP[1].ACTIVE", 1, "error 70506"),
+        ("V.G.VOLCOMP[0].FILE[0] = V.G.VOLCOMP[4].FILE[0]", 26, "error 70506"),
+        ("#VOLCOMP [ID=0 UPDATE]", 1, "was not read from any"),
+    ],
+)
+def test_what_the_machine_has_not_is_an_error_before_anything_runs(block: str, place: int, expected: str) -> None:
+    engine = Engine(machine())
+    with pytest.raises(NcError) as caught:
+        engine.step(command=block)
+    assert caught.value.place == place
+    assert expected in str(caught.value)
+    with pytest.raises(ValueError, match="command in row 3: character"):
+        run(engine, 5, {3: block})
+    assert engine.runtime.cycles == 0
+
+
+def test_off_of_what_is_not_there_does_nothing() -> None:
+    engine = Engine(machine())
+    assert run(engine, 2, {0: "Z[COMP OFF CROSS] X[COMP OFF FRICT]"})["X.leadscrew.active"].all()
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write_machine(machine(manual_activation=True, filter_steps=0), tmp_path)
+    (tmp_path / "other.csv").write_text("X0X\n-0.3\n")
+    (tmp_path / "bad.csv").write_text("X0X X0X\n-0.3 1\n")
+    return tmp_path
+
+
+def test_an_update_reads_the_parameter_files_of_one_compensation_again(folder: Path) -> None:
+    engine = Engine(folder)
+    engine.step(command="#VOLCOMP ON ALL")
+    (folder / "vol_comp0.csv").write_text("X0X\n-0.02\n")
+    (folder / "vol_comp2.csv").write_text("X0X\n-0.7\n")
+    held = engine.step(command="#VOLCOMP [ID=0 UPDATE]")
+    # Switched off for the update, without motion; compensation 2 stays on with its old data.
+    assert held["X.corrected_setpoint"] == pytest.approx(2.11)
+    assert (held["volumetric[0].active"], held["volumetric[2].active"]) == (False, True)
+    assert engine.step(command="#VOLCOMP ON [ID=0]")["X.volumetric.correction"] == pytest.approx(0.12)
+    assert engine.step()["X.corrected_setpoint"] == pytest.approx(2.12)
+
+
+def test_the_file_variables_say_what_the_next_update_reads(folder: Path) -> None:
+    engine = Engine(folder)
+    assert engine.nc.read("V.G.VOLCOMP[0].FILE[0]") == "vol_comp0.csv"
+    assert engine.nc.read("V.G.VOLCOMP[2].FILE[9]") == ""
+    assert engine.nc.read("V.G.VOLCOMP[0].ACTIVE") is False
+    commands = {
+        0: 'V.G.VOLCOMP[0].FILE[0] = "other.csv"',
+        1: "#VOLCOMP [ID=0 UPDATE]",
+        2: "#VOLCOMP ON [ID=0]  V.G.VOLCOMP[0].FILE[0]",
+        3: "V.G.VOLCOMP[0].ACTIVE V.G.VOLCOMP[2].FILE[1] = V.G.VOLCOMP[0].FILE[0]",
+    }
+    result = run(engine, 5, commands)
+    assert result["X.volumetric.correction"] == pytest.approx([0.0, 0.0, 0.3, 0.3, 0.3])
+    assert result.notices == ("V.G.VOLCOMP[0].FILE[0] = other.csv", "V.G.VOLCOMP[0].ACTIVE = True")
+    assert engine.nc.read("v.g.volcomp[2].file[1]") == "other.csv"
+    engine.nc.write("V.G.VOLCOMP[0].FILE[0]", "vol_comp0.csv")
+    engine.step(command="#VOLCOMP [ID=0 UPDATE]")
+    assert engine.step(command="#VOLCOMP ON [ID=0]")["X.volumetric.correction"] == pytest.approx(0.01)
+
+
+def test_variables_of_the_machine_cannot_be_misused(folder: Path) -> None:
+    engine = Engine(folder)
+    for name in (
+        "V.G.VOLCOMP[5].ACTIVE",
+        "V.G.VOLCOMP[0].FILE[10]",
+        "V.G.VOLCOMP[1].ACTIVE",
+        "X",
+        "V.G.VOLCOMP[0].ACTIVE 1",
+    ):
+        with pytest.raises(NcError):
+            engine.nc.read(name)
+    with pytest.raises(NcError, match="can only be read"):
+        engine.nc.write("V.G.VOLCOMP[0].ACTIVE", "1")
+
+
+@pytest.mark.parametrize(("name", "code"), [("bad.csv", "70469"), ("missing.csv", "AXC-MISSING")])
+def test_a_refused_update_keeps_the_old_data(folder: Path, name: str, code: str) -> None:
+    engine = Engine(folder)
+    engine.step(command="#VOLCOMP ON ALL")
+    engine.nc.write("V.G.VOLCOMP[0].FILE[0]", name)
+    with pytest.raises(NcError, match=f"keeps its old data.*{code}"):
+        engine.step(command="#VOLCOMP [ID=0 UPDATE]")
+    assert engine.step()["X.volumetric.correction"] == pytest.approx(0.11)
+
+
+def test_an_update_cannot_change_the_axes_of_the_machine() -> None:
+    engine = Engine(machine())
+    with pytest.raises(UpdateError):
+        engine.runtime.update(replace(machine(), axes=machine().axes[:2], volumetric=()))

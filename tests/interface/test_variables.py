@@ -1,0 +1,133 @@
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import pytest
+from fmu_machines import three_axes, trajectory
+
+from axcomp.engine.engine import Engine
+from axcomp.interface.variable import with_causality
+from axcomp.interface.variables import AXIS_DECLARATIONS, by_name, variables_of
+from axcomp.kernel.records import AxisInputs, AxisOutputs
+from axcomp.model.machine import Axis, AxisType, Cross, Friction, Leadscrew, Machine
+from axcomp.runtime.compile import compile_tables
+from axcomp.runtime.runtime import initial_inputs
+
+NO_CROSS = Cross(1, (0.0, 1.0), (0.0, 0.0))
+
+
+def bare(*names: str) -> Machine:
+    return Machine(tuple(Axis(number, name) for number, name in enumerate(names, start=1)))
+
+
+def test_only_what_is_configured_appears_and_fault_always() -> None:
+    machine = Machine((Axis(1, "X", leadscrew=Leadscrew((0.0, 1.0), (0.0, 0.0))), Axis(2, "Y")))
+    names = set(by_name(variables_of(machine)))
+    assert {"X.leadscrew.enable", "X.leadscrew.correction", "X.leadscrew.active", "X.fault", "Y.fault"} <= names
+    assert not {name for name in names if name.startswith("Y.leadscrew") or "cross" in name or "current" in name}
+
+
+def test_friction_has_a_current_and_no_correction() -> None:
+    names = by_name(variables_of(Machine((Axis(1, "X", friction=Friction((0.0,), (1.0,))),))))
+    assert "X.current" in names
+    assert "X.friction.correction" not in names
+
+
+@pytest.mark.parametrize(("kind", "unit"), [(AxisType.TRANSLATORY, "mm"), (AxisType.ROTARY, "deg")])
+def test_units_are_those_of_the_axis(kind: AxisType, unit: str) -> None:
+    variables = by_name(variables_of(Machine((Axis(1, "A", kind),))))
+    assert variables["A.setpoint"].unit == unit
+    assert variables["A.velocity"].unit == f"{unit}/s"
+    assert variables["A.acceleration"].unit == f"{unit}/s2"
+    assert variables["A.error"].unit == ""
+    assert variables["cycle_time"].unit == "s"
+
+
+def test_a_value_reference_means_the_same_in_every_machine() -> None:
+    variables = by_name(variables_of(three_axes()))
+    references = {name: variables[name].reference for name in ("reset", "cycle_time", "X.setpoint", "C.error")}
+    assert references == {"reset": 0, "cycle_time": 4, "X.setpoint": 64, "C.error": 3 * 64 + 12}
+    other = by_name(variables_of(bare("U", "V", "W")))
+    assert other["W.error"].reference == variables["C.error"].reference
+    assert variables["Y_ACHSE.friction.active"].reference == 2 * 64 + 33
+
+
+@pytest.mark.parametrize("naming", ["structured", "flat"])
+def test_names_and_references_are_unique(naming: str) -> None:
+    machine = bare("X", "X_leadscrew", "x.y", "x-y", "", "1X", "reset", "Ä", "Ö", "X_2")
+    machine = Machine(
+        tuple(replace(axis, leadscrew=Leadscrew((0.0, 1.0), (0.0, 0.0)), cross=NO_CROSS) for axis in machine.axes)
+    )
+    variables = variables_of(machine, naming)  # type: ignore[arg-type]
+    assert len({variable.name for variable in variables}) == len(variables)
+    assert len({variable.reference for variable in variables}) == len(variables)
+    for variable in variables:
+        assert all(part.isidentifier() and part.isascii() for part in variable.name.split("."))
+        assert naming == "structured" or "." not in variable.name
+
+
+def test_start_values_are_those_of_the_runtime() -> None:
+    cross = Cross(1, (0.0, 1.0), (0.0, 0.0), manual_activation=True)
+    machine = three_axes()
+    machine = Machine((replace(machine.axes[0], cross=cross), *machine.axes[1:]))
+    inputs = initial_inputs(compile_tables(machine))
+    variables = [v for v in with_causality(variables_of(machine), "input") if v.axis is not None]
+    assert by_name(variables)["X.cross.enable"].start is False
+    assert by_name(variables)["Y_ACHSE.cross.enable"].start is True
+    assert {v.name: v.start for v in variables} == {
+        v.name: getattr(inputs.axis[v.axis or 0], v.field) for v in variables
+    }
+
+
+def test_every_field_of_an_axis_is_declared_once() -> None:
+    for causality, record in (("input", AxisInputs), ("output", AxisOutputs)):
+        declared = [d.field for d in AXIS_DECLARATIONS if d.causality == causality]
+        assert len(set(declared)) == len(declared)
+        assert set(declared) <= {field.name for field in fields(record)}
+        missing = {field.name for field in fields(record)} - set(declared)
+        assert all(name.startswith("volumetric") or name == "stop_request" for name in missing)
+
+
+def test_a_correction_depends_on_its_masters_and_on_nothing_else_that_moves() -> None:
+    variables = by_name(variables_of(three_axes()))
+    moving = {name for name in variables["Y_ACHSE.corrected_setpoint"].depends_on or () if "setpoint" in name}
+    assert moving == {"X.setpoint", "Y_ACHSE.setpoint", "C.setpoint"}
+    assert "C.setpoint" not in (variables["Y_ACHSE.cross.correction"].depends_on or ())
+    assert set(variables["X.leadscrew.correction"].depends_on or ()) == {
+        "reset",
+        "program_end",
+        "reload",
+        "X.setpoint",
+        "X.velocity",
+        "X.referenced",
+        "X.no_move",
+        "X.leadscrew.enable",
+    }
+
+
+def test_no_output_changes_with_an_input_it_does_not_depend_on() -> None:
+    """Change one input at a time on the way: whatever differs then must depend on it."""
+    cycles, at = 40, 12
+    base = Engine(three_axes()).run(_columns(cycles))
+    variables = Engine(three_axes()).variables
+    seen = set()
+    for variable in with_causality(variables, "input"):
+        columns = _columns(cycles)
+        values = columns.setdefault(variable.name, [variable.start] * cycles)  # type: ignore[list-item]
+        values[at:] = [not old if isinstance(old, bool) else 30.0 - old for old in values[at:]]
+        other = Engine(three_axes()).run(columns)
+        for output in with_causality(variables, "output"):
+            if base[output.name].tolist() != other[output.name].tolist():
+                seen.add(output.name)
+                assert variable.name in (output.depends_on or ()), output.name
+    assert len(seen) > 15
+
+
+def _columns(cycles: int) -> dict[str, list[float | bool]]:
+    """Return a trajectory in which Y-ACHSE stands still, so that its cross compensation can be switched off."""
+    rows = trajectory(cycles)
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    columns["Y_ACHSE.setpoint"] = [5.0] * cycles
+    columns["Y_ACHSE.velocity"] = [0.0] * cycles
+    columns["Y_ACHSE.cross.enable"] = [k < 20 for k in range(cycles)]
+    return columns
