@@ -13,7 +13,7 @@ from axcomp.runtime import Runtime
 from axcomp.show.bars import Bars
 from axcomp.show.content import Content, NotComparableError, Subject, spread
 from axcomp.show.contents import contents_of
-from axcomp.show.curves import Curves, Line
+from axcomp.show.curves import Curves, Line, Quantity
 from axcomp.show.field import Field
 from axcomp.show.maps import Map
 from axcomp.show.volume import volumetric_contents
@@ -226,6 +226,15 @@ def test_an_error_that_the_other_machine_lacks_is_zero_there() -> None:
     records = one.against(other).records()
     assert records.columns[1:] == ("EXX [µm]", "EYX [µm]")
     assert np.allclose(records.rows, [(-100, 10, -3), (0, 5, -2), (100, -10, -1)])
+
+
+def test_constant_errors_that_one_of_two_machines_lacks_are_zero_there() -> None:
+    quantity = Quantity("error", "µrad")
+    one = Bars(Subject("0", "volumetric"), quantity, {"C0Y": 30.0, "A0Z": 5.0})
+    other = Bars(Subject("0", "volumetric"), quantity, {"B0Z": -7.0, "C0Y": 10.0})
+    assert one.against(other).values == {"C0Y": -20.0, "A0Z": -5.0, "B0Z": -7.0}
+    assert other.against(one).values == {"B0Z": 7.0, "C0Y": 20.0, "A0Z": 5.0}
+    assert one.against(other).records().rows == [("C0Y", -20.0), ("A0Z", -5.0), ("B0Z", -7.0)]
 
 
 def test_tables_over_different_quantities_are_not_compared() -> None:
