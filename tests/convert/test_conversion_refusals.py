@@ -49,6 +49,18 @@ def test_more_points_than_the_control_reserves_are_refused() -> None:
         written([LONG], "enc-comp", Options(max_points=200))
 
 
+def test_as_many_points_as_the_control_reserves_are_taken_and_not_one_more() -> None:
+    for count, room in ((300, 300), (2, 2)):
+        table = replace(LONG, positions=LONG.positions[:count], positive=LONG.positive[:count])
+        assert len(on_equidistant_points(table, room, None).positions) == count
+        with pytest.raises(CannotHoldError, match=f"{count} points; there is room for {room - 1}"):
+            on_equidistant_points(table, room - 1, None)
+    # 0, 10, 30 and 45 are among ten points 5 mm apart, and among no fewer.
+    assert len(on_equidistant_points(UNEVEN, 10, 0.0).positions) == 10
+    with pytest.raises(CannotHoldError, match="on up to 9 equidistant points"):
+        on_equidistant_points(UNEVEN, 9, 0.0)
+
+
 def test_other_points_are_taken_only_within_the_stated_bound() -> None:
     _, [result] = written([UNEVEN], "enc-comp", Options(within=1.0))
     assert 0.05 < result.difference.size <= 1.0

@@ -105,11 +105,14 @@ def test_cec_tables_of_one_pair_add_up_with_their_weights() -> None:
             table(1, 150, [0.0, 0.03], "$AN_CEC_FACTOR[1]=0.5\n"),
             table(2, 50, [0.1, 0.1], "$AN_CEC_DIRECTION[2]=-1\n"),
             table(3, 50, [9.0, 9.0], "$SN_CEC_TABLE_ENABLE[3]=0\n"),
+            table(4, 100, [0.0, 0.02], "$SN_CEC_TABLE_WEIGHT[4]=-0.25\n"),
+            table(5, 100, [0.04, 0.0], "$AN_CEC_FACTOR[5]=0.5\n$SN_CEC_TABLE_WEIGHT[5]=3\n$SN_CEC_TABLE_ENABLE[5]=1\n"),
         ]
     )
     [found] = read_cec(text)
     x = np.linspace(-20, 230, 251)
     expected = np.interp(x, [0, 100, 200], [0.0, 0.01, 0.03]) + 0.5 * np.interp(x, [0, 150], [0.0, 0.03])
+    expected += -0.25 * np.interp(x, [0, 100], [0.0, 0.02]) + 0.5 * 3.0 * np.interp(x, [0, 100], [0.04, 0.0])
     assert np.allclose(found.at(x, 1), expected, atol=1e-15)
     assert np.allclose(found.at(x, -1), expected + 0.1, atol=1e-15)
 

@@ -160,6 +160,36 @@ def test_a_cross_table_is_put_on_top_too_and_agrees_with_the_plant(lists):
     )
 
 
+@pytest.mark.parametrize("bound", [None, 3.0])
+def test_the_deviation_of_a_table_on_top_is_that_from_the_old_one_and_the_measured_rest(lists, bound):
+    target = TargetList(lists / "achskw1.lis")
+    before = read_machine(lists).machine.axis("X").leadscrew
+    rest = {1: 4.0 * np.sin(TARGETS / 100.0), -1: 3.0 * np.cos(TARGETS / 150.0)}
+    creation = create_leadscrew(measured(TARGETS, rest), target, Options(on_top=True, bound=bound))
+    after = creation.compensation
+    off = [
+        np.abs(1e3 * np.interp(TARGETS, after.positions, new) - 1e3 * np.interp(TARGETS, before.positions, old) - error)
+        for new, old, error in (
+            (after.positive, before.positive, rest[1]),
+            (after.negative, before.negative, rest[-1]),
+        )
+    ]
+    assert creation.deviation == pytest.approx(np.max(off), abs=1e-6)
+    assert creation.deviation <= (bound or 0.05) + 1e-9
+
+
+def test_the_deviation_of_a_cross_table_on_top_is_that_from_the_old_one_and_the_measured_rest(lists):
+    target = TargetList(lists / "achskw3.lis")
+    before = read_machine(lists).machine.axis("Z").cross
+    rest = 4.0 * np.sin(TARGETS / 100.0)
+    creation = create_cross(measured(TARGETS, {1: rest, -1: rest}), target, Options(on_top=True, bound=1.0))
+    after = creation.compensation
+    old = 1e3 * np.interp(TARGETS, before.positions, before.corrections)
+    off = 1e3 * np.interp(TARGETS, after.positions, after.corrections) - (old - rest)
+    assert creation.deviation == pytest.approx(np.max(np.abs(off)), abs=1e-6)
+    assert creation.deviation <= 1.0
+
+
 def test_the_ends_of_a_full_turn_become_one_value(tmp_path):
     file = tmp_path / "c.lis"
     file.write_text("kopf.achs_nr 6\nkw.ssfk.modulo 1\n")

@@ -45,6 +45,14 @@ def test_both_directions_count_alike_and_make_one_curve(new_list):
     assert any("constant current of 30" in note for note in creation.notes)
 
 
+@pytest.mark.parametrize(("forwards", "backwards"), [(3, 1), (1, 4)])
+def test_the_direction_with_more_readings_has_no_more_weight(new_list, forwards, backwards):
+    """A constant current of 30 cancels between the directions however often each was measured."""
+    velocities = np.concatenate([np.repeat(LEVELS, forwards), np.repeat(-LEVELS, backwards)])
+    table = read_friction(create_friction(readings(velocities, stribeck(velocities) + 30.0), new_list))
+    assert table.currents == pytest.approx(stribeck(np.round(LEVELS, 3)), abs=0.6)
+
+
 @settings(deadline=None, max_examples=40)
 @given(st.lists(st.floats(0.01, 500.0), min_size=1, max_size=60), st.floats(2.0, 300.0), st.integers(0, 99))
 def test_thinning_never_exceeds_its_bound(tmp_path_factory, speeds, bound, seed):
@@ -75,6 +83,23 @@ def test_the_factor_of_the_list_stays_and_the_table_is_divided_by_it(tmp_path):
     file.write_text("kopf.achs_nr 1\nfrict_comp.scaling_factor 0\n")
     with pytest.raises(CannotCreateError, match="scaling_factor of the list is 0"):
         create_friction(readings(LEVELS), TargetList(file))
+
+
+@pytest.mark.parametrize("factor", [2000, -2000])
+def test_a_negative_factor_keeps_the_bound_as_a_positive_one_does(tmp_path, factor):
+    """With the factor ±2 whole numbers of the list are 2 apart: half of that is lost by rounding."""
+    file = tmp_path / "f.lis"
+    file.write_text(f"kopf.achs_nr 1\nfrict_comp.scaling_factor {factor}\n")
+    with pytest.raises(CannotCreateError, match=r"rounded to 2 drive unit, so 0\.9 drive unit cannot be kept"):
+        create_friction(readings(LEVELS), TargetList(file), Options(bound=0.9))
+    # The middle current is 2.2 off the line between its neighbours, 0.8 off the next even number.
+    speeds, currents = np.array([1.0, 2.0, 3.0]), np.array([600.0, 603.2, 602.0])
+    creation = create_friction(readings(speeds, currents), TargetList(file), Options(bound=1.5))
+    table = read_friction(creation)
+    assert table.scaling == factor / 1000.0
+    off = np.abs(np.interp(speeds, table.velocities, table.currents) * table.scaling - currents)
+    assert off.max() == pytest.approx(0.8)
+    assert creation.deviation == pytest.approx(0.8)
 
 
 def test_small_currents_keep_three_figures(new_list):

@@ -101,6 +101,18 @@ def test_the_default_axis_list_holds_for_all_axes_and_their_own_lists_win(read_l
     assert [a.name for a in reading.machine.axes] == ["axis1", "axis2"]
 
 
+def test_a_finding_about_a_value_of_the_default_axis_list_names_that_list_and_its_line(read_lists: ReadLists) -> None:
+    files = {
+        "hochlauf.lis": "default_achs_mds all.lis\nzahl_kw 1\nachs_kw[0] kw1.lis\nzahl_mds 1\nachs_mds[0] one.lis\n",
+        "all.lis": "lr_param.ssfk 1\nlr_param.crosscomp 1\nkenngr.achs_typ 2\nkenngr.achs_mode 4\n"
+        "getriebe[0].modulou 100\ngetriebe[0].moduloo 100\n",
+        "one.lis": axis(1),
+        "kw1.lis": compensation(1),
+    }
+    places = {f.code: (Path(f.file).name, f.line) for f in read_lists(files).findings}
+    assert places == {"110052": ("all.lis", 6), "AXC-NO-TABLE": ("all.lis", 2)}
+
+
 def test_the_number_in_the_start_up_list_serves_where_the_list_has_none(read_lists: ReadLists) -> None:
     reading = read_lists({"hochlauf.lis": "zahl_kw 1\nachs_kw[0] a.lis\nachs_kw_log_ax_nr[0] 6\n", "a.lis": TABLE})
     assert (codes(reading), acting(reading)) == ([], {6: ["leadscrew"]})
@@ -118,6 +130,23 @@ def test_names_are_made_unique(read_lists: ReadLists) -> None:
     reading = read_lists(files)
     assert [a.name for a in reading.machine.axes] == ["axis3", "axis3_2", "axis3_3", "axis3_2_4"]
     assert codes(reading) == ["AXC-NAME"] * 3
+
+
+@pytest.mark.parametrize(
+    ("names", "unique"),
+    [
+        (["X", "X", "X"], ["X", "X_2", "X_3"]),
+        (["X", "X_3", "X"], ["X", "X_3", "X_3_"]),
+        (["X", "X_4", "X_4_", "X"], ["X", "X_4", "X_4_", "X_4__"]),
+    ],
+)
+def test_axes_of_one_name_get_a_name_that_no_axis_before_has(
+    names: list[str], unique: list[str], read_lists: ReadLists
+) -> None:
+    files = {f"achskw{i}.lis": compensation(i, f"kopf.log_achs_name {name}\n") for i, name in enumerate(names, 1)}
+    reading = read_lists(files)
+    assert [a.name for a in reading.machine.axes] == unique
+    assert set(codes(reading)) == {"AXC-NAME"}
 
 
 @pytest.mark.parametrize("name", [r"sub\kw.lis", "sub/kw.lis", r".\sub\\kw.lis", r"sub\..\sub\kw.lis"])

@@ -187,6 +187,33 @@ def test_uncertainties_are_those_calculated_by_hand():
     assert found["R_up"] == pytest.approx(2 * 0.981495, abs=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("fewer", "runs"),
+    [
+        ({(100.0, -1): 3}, 3),
+        ({(0.0, 1): 2, (0.0, -1): 4}, 2),
+        ({(100.0, -1): 0}, 5),
+        ({(t, -1): 0 for t in (0.0, 50.0, 100.0)}, 5),
+    ],
+    ids=["fewer down", "fewer up", "no reading at one target", "one direction"],
+)
+def test_the_target_measured_least_often_decides_the_uncertainty(fewer, runs):
+    """Drift of 1.7 µm is U_EVE = 1.7/√3; a target without any reading in a direction does not count."""
+    cells = [(t, d) for t in (0.0, 50.0, 100.0) for d in (1, -1)]
+    rows = [(t, run, d, run * d) for t, d in cells for run in range(1, fewer.get((t, d), 5) + 1)]
+    result = evaluate(measurement(rows), Conditions(drift=1.7))
+    eve = 1.7 / math.sqrt(3.0)
+    expected = {
+        "B": eve * math.sqrt(2.0 / runs),
+        "M": eve / math.sqrt(runs),
+        "E_up": eve * math.sqrt(2.0 / runs),
+        "A_up": eve * math.sqrt(2.0 / runs + 4.0),
+    }
+    given = {name: value for name, value in expected.items() if not math.isnan(getattr(result, name))}
+    assert {name: result.uncertainty.get(name) for name in given} == pytest.approx(given)
+    assert {"E_up", "A_up"} <= given.keys()
+
+
 def test_uncertainty_by_simulated_drift_covers_the_figures_it_is_for():
     """B, M and E of an axis without error, read with drift alone, stay within U in about 95 % of tests."""
     random = np.random.default_rng(3)

@@ -19,6 +19,17 @@ from axcomp.plot.field import Field
 from axcomp.plot.maps import Map
 from axcomp.plot.volume import volumetric_contents
 from axcomp.runtime.runtime import Runtime
+from axcomp.model.machine import Axis, Leadscrew, Machine
+from axcomp.runtime.runtime import Runtime
+from axcomp.plot.bars import Bars
+from axcomp.plot.content import Content, NotComparableError, Subject, spread
+from axcomp.plot.contents import contents_of
+from axcomp.plot.curves import Curves, Line, Quantity
+from axcomp.plot.field import Field
+from axcomp.plot.maps import Map
+from axcomp.plot.volume import volumetric_contents
+from axcomp.engine.tcp_model import TcpModel
+from axcomp.model.volumetric import Volumetric
 
 
 def _content(machine: Machine, axis: str, kind: str) -> Any:
@@ -226,6 +237,15 @@ def test_an_error_that_the_other_machine_lacks_is_zero_there() -> None:
     records = one.against(other).records()
     assert records.columns[1:] == ("EXX [µm]", "EYX [µm]")
     assert np.allclose(records.rows, [(-100, 10, -3), (0, 5, -2), (100, -10, -1)])
+
+
+def test_constant_errors_that_one_of_two_machines_lacks_are_zero_there() -> None:
+    quantity = Quantity("error", "µrad")
+    one = Bars(Subject("0", "volumetric"), quantity, {"C0Y": 30.0, "A0Z": 5.0})
+    other = Bars(Subject("0", "volumetric"), quantity, {"B0Z": -7.0, "C0Y": 10.0})
+    assert one.against(other).values == {"C0Y": -20.0, "A0Z": -5.0, "B0Z": -7.0}
+    assert other.against(one).values == {"B0Z": 7.0, "C0Y": 20.0, "A0Z": 5.0}
+    assert one.against(other).records().rows == [("C0Y", -20.0), ("A0Z", -5.0), ("B0Z", -7.0)]
 
 
 def test_tables_over_different_quantities_are_not_compared() -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -80,6 +81,21 @@ def test_what_a_change_gives_rise_to_stands_in_the_row(tmp_path: Path) -> None:
     assert "kw_nr_max" not in good["findings"]
     assert "achskw2.lis" in bad["findings"]
     assert str(tmp_path) not in bad["findings"]
+
+
+def test_what_is_known_of_the_lists_as_they_are_is_said_once_not_in_every_row(tmp_path: Path) -> None:
+    lists = tmp_path / "lists"
+    shutil.copytree(MODEL, lists)
+    text = (lists / "achskw2.lis").read_text()
+    (lists / "achskw2.lis").write_text(f"kw.ssfk.nothing 1\nkw.ssfk.n_cycels 1\n{text}")
+    spec = spec_of(tmp_path, machine=str(lists), vary={"achskw2.lis: kw.ssfk.kw_nr_max": [61, 99999]})
+    job, said = job_of(spec)
+    assert [sum(name in text for text in said) for name in ("kw.ssfk.nothing", "n_cycels")] == [1, 1]
+    good, bad = (perform(job, run) for run in spec.every_run())
+    assert (good["findings"], good[ERROR]) == ("", "")
+    assert "nothing" not in bad["findings"]
+    assert "n_cycels" not in bad["findings"]
+    assert "kw_nr_max" in bad["findings"]
 
 
 def test_cycle_time_and_feed_are_parameters_of_a_run(tmp_path: Path) -> None:

@@ -243,6 +243,20 @@ def test_an_error_keeps_this_compensation_off_and_the_rest_of_the_machine_works(
         read_machine(tmp_path, strict=True)
 
 
+def test_a_missing_parameter_file_is_said_once_not_as_missing_parameters_too(read: Callable[..., Reading]) -> None:
+    lists = machine_files()["vol_comp0.lis"].replace("errors.csv", "missing.csv")
+    reading = read(files={"vol_comp0.lis": lists})
+    assert found(reading) == [("AXC-MISSING", "vol_comp0.lis", 8)]
+    assert reading.machine.volumetric == ()
+
+
+def test_of_two_compensations_that_name_the_same_bad_list_neither_acts(read: Callable[..., Reading]) -> None:
+    start_up = [f"vol_comp[{i}].max_records 1000" for i in (0, 1)] + ["vol_comp[1].file_name vol_comp0.lis"]
+    reading = read(start_up=start_up, csv="X EAX\n0 30\n")
+    assert found(reading) == [("AXC-MAGNITUDE", "errors.csv", 2)] * 2
+    assert reading.machine.volumetric == ()
+
+
 def test_a_file_too_many_is_said_to_keep_the_compensation_off(read: Callable[..., Reading]) -> None:
     (finding,) = read(volumetric=["file[10] errors.csv"]).findings
     assert finding.message == "file[10]: the index goes to 9 only; the compensation stays off."
@@ -318,6 +332,23 @@ def test_gantry_slaves_are_read(read: Callable[..., Reading]) -> None:
     table = compile_tables(machine).volumetric[0]
     members = sorted(zip(table.member[: table.members], table.member_letter, strict=False))
     assert members == [(0, 0), (1, 1), (2, 2), (3, 4), (4, 5), (5, 1)]
+
+
+@pytest.mark.parametrize(
+    ("limits", "code", "sentence"),
+    [
+        ("s_limit 10000\nlr_param.vol_comp.v_limit 500", "AXC-NOT-MODELLED", "v_limit of axis 9 is not modelled"),
+        ("v_limit 0", "AXC-LIMIT", "Axis 9 has no lr_param.vol_comp.s_limit"),
+    ],
+)
+def test_the_limits_of_a_gantry_slave_are_looked_at_as_its_masters(
+    read: Callable[..., Reading], limits: str, code: str, sentence: str
+) -> None:
+    slave = f"kopf.achs_nr 9\nkopf.log_achs_name Y2\nkenngr.gantry_ax_nr 2\nlr_param.vol_comp.{limits}\n"
+    hochlauf = machine_files()["hochlauf.lis"].replace("zahl_mds 5", "zahl_mds 6\nachs_mds[5] achsmd9.lis")
+    reading = read(files={"achsmd9.lis": slave, "hochlauf.lis": hochlauf})
+    assert found(reading) == [(code, "vol_comp0.lis", 2)]
+    assert sentence in reading.findings[0].message
 
 
 def unit_vectors() -> st.SearchStrategy[tuple[float, ...]]:

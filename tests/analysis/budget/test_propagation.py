@@ -13,6 +13,13 @@ from axcomp.engine.trajectory import InputFile, read_input
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, Leadscrew, Machine
 from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.analysis.budget.contributions import budget_of
+from axcomp.analysis.budget.propagation import tcp_uncertainty
+from axcomp.analysis.budget.uncertainty import Uncertainty
+from axcomp.model.machine import Axis, AxisType, Leadscrew, Machine
+from axcomp.model.companions import models
+from axcomp.engine.trajectory import InputFile, read_input
+from axcomp.model.volumetric import ErrorTable, Volumetric
 
 XYZ = tuple(Axis(number, name, volumetric_limit=10.0) for number, name in ((1, "X"), (2, "Y"), (3, "Z")))
 NODES = ((0.0,), (100.0,))
@@ -44,6 +51,23 @@ def test_nodes_of_their_own_count_less_between_them() -> None:
     expected = [1.0, np.sqrt(0.5), np.hypot(0.75, 0.25)]
     assert found.linear[:, 0] == pytest.approx(expected, rel=1e-6)
     assert found.standard[:, 0] == pytest.approx(expected, rel=0.03)
+
+
+@pytest.mark.parametrize(("chain", "carried"), [("CXYZ", 1), ("XYZC", 3)])
+def test_the_node_at_0_and_360_degrees_is_one_place_with_one_error(chain: str, carried: int) -> None:
+    """EZC lifts the tip wherever C stands: σ at a node, σ · √(w² + (1 − w)²) between two, also at the seam."""
+    turns = np.array([0.0, 45.0, 180.0, 337.5, 350.0, 359.0, 360.0, 382.5, -22.5])
+    nodes = ((0.0,), (90.0,), (180.0,), (270.0,), (360.0,))
+    table = ErrorTable("EZC", (0.01, 0.02, 0.0, 0.01, 0.01), "C", nodes)
+    axes = (("X", 1), ("Y", 2), ("Z", 3), ("C", 6))
+    volume = Volumetric(0, axes, chain, carried, (table,), filter_steps=0)
+    machine = Machine((*XYZ, Axis(6, "C", AxisType.ROTARY)), (volume,))
+    budget = budget_of(machine, InputFile({"C.setpoint": turns}))
+    found = tcp_uncertainty(budget, [Uncertainty("EZC", 1e-3, True, 0)], trials=4000)
+    share = np.mod(turns, 90.0) / 90.0
+    expected = np.hypot(share, 1.0 - share)
+    assert found.linear[:, 2] == pytest.approx(expected, rel=1e-6)
+    assert found.standard[:, 2] == pytest.approx(expected, rel=0.04)
 
 
 def test_the_radius_is_the_quantile_of_the_known_distribution() -> None:

@@ -9,6 +9,8 @@ from judging import THREE_AXIS, codes, example, judge, leadscrew_machine, measur
 
 from axcomp.analysis.judgement import sign_of
 from axcomp.convert.machines import tables_of
+from axcomp.analysis.judgement import sign_of
+from axcomp.model.machine import Axis, AxisType, Cross, Leadscrew, Machine
 from axcomp.measurement.positioning import Positioning
 from axcomp.model.machine import Axis, Leadscrew, Machine
 
@@ -104,6 +106,33 @@ def test_a_table_in_another_unit_is_told_by_the_factor_that_fits() -> None:
 def test_a_measurement_of_something_else_is_refused_in_a_sentence(axis, over, unit, sentence) -> None:
     with pytest.raises(ValueError, match=sentence):
         sign_of(example(), replace(measured("X"), unit=unit), axis, over)
+
+
+def cross_over_c() -> tuple[Machine, Positioning]:
+    """Return Z with a table over a rotary axis C, and what was measured of it: positions in °, deviations in µm."""
+    cross = Cross(2, (0.0, 90.0, 180.0), (0.0, 0.010, 0.004))
+    machine = Machine((Axis(1, "Z", cross=cross), Axis(2, "C", AxisType.ROTARY)))
+    x = np.array([0.0, 45.0, 90.0, 180.0])
+    ones = np.ones(4, dtype=int)
+    deviations = np.array([0.0, -5.0, -10.0, -4.0])
+    return machine, Positioning(x, ones, ones, deviations, "deg", "Z", deviating_unit="mm", source="z.csv")
+
+
+def test_a_linear_axis_over_a_rotary_one_is_judged_in_the_units_of_each() -> None:
+    machine, measurement = cross_over_c()
+    result = sign_of(machine, measurement, "Z", "C")
+    assert result.verdict == "as written"
+    assert (result.error("without"), result.error("as written")) == pytest.approx((10.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("unit", "deviating", "shown"),
+    [("deg", "deg", "deg"), ("deg", None, "deg"), ("mm", "mm", "mm"), ("mm", "deg", "mm and deg")],
+)
+def test_a_measurement_with_one_of_its_two_units_wrong_is_refused(unit: str, deviating: str, shown: str) -> None:
+    machine, measurement = cross_over_c()
+    with pytest.raises(ValueError, match=f"^z.csv: it is in {shown}, the cross table of Z over C in deg and mm$"):
+        sign_of(machine, replace(measurement, unit=unit, deviating_unit=deviating), "Z", "C")
 
 
 def test_the_picture_shows_both_states() -> None:
