@@ -14,22 +14,11 @@ from axcomp.model.volumetric import Volumetric
 from axcomp.plot.bars import Bars
 from axcomp.plot.content import Content, NotComparableError, Subject, spread
 from axcomp.plot.contents import contents_of
-from axcomp.plot.curves import Curves, Line
-from axcomp.plot.field import Field
-from axcomp.plot.maps import Map
-from axcomp.plot.volume import volumetric_contents
-from axcomp.runtime.runtime import Runtime
-from axcomp.model.machine import Axis, Leadscrew, Machine
-from axcomp.runtime.runtime import Runtime
-from axcomp.plot.bars import Bars
-from axcomp.plot.content import Content, NotComparableError, Subject, spread
-from axcomp.plot.contents import contents_of
 from axcomp.plot.curves import Curves, Line, Quantity
 from axcomp.plot.field import Field
 from axcomp.plot.maps import Map
 from axcomp.plot.volume import volumetric_contents
-from axcomp.engine.tcp_model import TcpModel
-from axcomp.model.volumetric import Volumetric
+from axcomp.runtime.runtime import Runtime
 
 
 def _content(machine: Machine, axis: str, kind: str) -> Any:

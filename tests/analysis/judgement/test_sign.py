@@ -9,10 +9,8 @@ from judging import THREE_AXIS, codes, example, judge, leadscrew_machine, measur
 
 from axcomp.analysis.judgement import sign_of
 from axcomp.convert.machines import tables_of
-from axcomp.analysis.judgement import sign_of
-from axcomp.model.machine import Axis, AxisType, Cross, Leadscrew, Machine
 from axcomp.measurement.positioning import Positioning
-from axcomp.model.machine import Axis, Leadscrew, Machine
+from axcomp.model.machine import Axis, AxisType, Cross, Leadscrew, Machine
 
 
 def changed(axis: str, **fields) -> Machine:
