@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -145,8 +146,6 @@ AXCOMP_API double axcomp_step(Machine *machine, const double *table, bool forwar
 SOURCE = """\
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
-static void record_move(Part *part, double moved);
-
 /* ================================== limits ================================== */
 
 #define UNSEEN (-500.0)  /* -0.5 * LARGEST */
@@ -159,6 +158,13 @@ static void record_move(Part *part, double moved);
  */
 
 #define STEP 0.25  /* mm */
+
+static void record_move(Part *part, double moved)
+{
+    part->position += moved;
+    part->history[part->moves & 3] = part->position;
+    part->moves += 1;
+}
 
 /* Exported: the rest is static. */
 /* Move every part by one step.
@@ -189,13 +195,6 @@ double axcomp_step(Machine *machine, const double *table, bool forward)
     }
     return total;
 }
-
-static void record_move(Part *part, double moved)
-{
-    part->position += moved;
-    part->history[part->moves & 3] = part->position;
-    part->moves += 1;
-}
 """
 
 
@@ -213,6 +212,41 @@ def test_the_example_becomes_this_header_and_this_source(example: Path) -> None:
 
 def test_translating_twice_gives_the_same_text(example: Path) -> None:
     assert translate(example, ["step"]) == translate(example, ["step"])
+
+
+MODULES = {
+    "late": """
+from .early import shared
+_FACTOR = 2.0
+def top(x: float) -> float:
+    return middle(x) + leaf(x)
+def aside(x: float) -> float:
+    return shared(x)
+def leaf(x: float) -> float:
+    return x * _LATER
+def middle(x: float) -> float:
+    return leaf(x) * _FACTOR + below(x) + aside(x)
+_LATER = 3.0
+def below(x: float) -> float:
+    return shared(x)
+""",
+    "early": """
+def shared(x: float) -> float:
+    return hidden(x)
+def hidden(x: float) -> float:
+    return -x
+""",
+}
+
+
+def test_functions_stand_behind_what_they_call_else_in_the_order_of_the_source(tmp_path: Path) -> None:
+    source = translate(write_package(tmp_path / "ordered", MODULES), ["top"]).source
+    order = re.findall(r"^(?:#define|static double|double) (\w+)|^/\* =+ (\w+) =+", source, re.MULTILINE)
+    assert [name or module for name, module in order] == [
+        *("early", "hidden", "shared"),
+        *("late", "FACTOR", "LATER", "leaf", "aside", "below", "middle", "axcomp_top"),
+    ]
+    assert not re.search(r"^\w.*\);$", source, re.MULTILINE), "a prototype"
 
 
 COMPILERS = {
