@@ -108,6 +108,9 @@ def _header(program: Program, effects: Effects, name: str, origin: str) -> str:
     for function in program.functions():
         if function.exported:
             writer.blank()
+            text = ast.get_docstring(function.node)
+            if text:
+                writer.remark(text.partition("\n\n")[0])
             writer.write(f"{api} {prototype(function, effects)};")
     writer.blank()
     writer.extend(["#ifdef __cplusplus", "}", "#endif", "", "#endif"])

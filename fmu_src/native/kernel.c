@@ -104,7 +104,7 @@ static double nearest(double change, double length)
     return change;
 }
 
-/* Tell whether so many numbers from ``first`` on lie in the pool. */
+/* Tell whether so many numbers from `first` on lie in the pool. */
 static bool range_fits(int32_t first, int32_t count, int32_t numbers)
 {
     return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
@@ -217,7 +217,7 @@ static double scattered_value(const double *pool, const CrosstalkTable *table, C
     return hull_value(pool, table, values, x, y);
 }
 
-/* Return one of the four corrections, interpolated between the tests; ``values``: where its block begins. */
+/* Return one of the four corrections, interpolated between the tests; `values`: where its block begins. */
 static double test_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
         double position1, double position2)
 {
@@ -357,9 +357,9 @@ static void begin_switch(const SwitchTable *table, SwitchState *state, bool enab
     state->absorbed = 0.0;
 }
 
-/* Take the command of this cycle, if there is one: an edge of ``enable``, or a manual compensation is released.
+/* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
  *
- * ``ready``: the conditions hold (references). ``released``: reset or program end. ``no_move``: the command is to move
+ * `ready`: the conditions hold (references). `released`: reset or program end. `no_move`: the command is to move
  * nothing, whenever it acts.
  */
 static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released,
@@ -378,8 +378,8 @@ static void heed_command(const SwitchTable *table, SwitchState *state, bool enab
 
 /* Advance the weight by one cycle.
  *
- * ``ready``: the conditions hold (references); while they do not, nothing is put out and a command need not wait.
- * ``moving``: the slave is in motion.
+ * `ready`: the conditions hold (references); while they do not, nothing is put out and a command need not wait.
+ * `moving`: the slave is in motion.
  */
 static void advance_switch(const SwitchTable *table, SwitchState *state, bool ready, bool moving)
 {
@@ -480,7 +480,7 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
  * Cross compensation (kw.crosscomp): the slave is corrected by what stands at the master's raw setpoint. Added.
  */
 
-/* Return the correction at full weight; ``master`` is the master's raw setpoint. */
+/* Return the correction at full weight; `master` is the master's raw setpoint. */
 static double cross_value(const double *pool, const CrossTable *table, CrossState *state, double master)
 {
     return curve_value(pool, &table->curve, master, &state->lookup);
@@ -531,7 +531,7 @@ static double decay_predicted(const FrictionTable *table, double velocity, doubl
     return whole(cycles) / table->lookahead;
 }
 
-/* Put a current into the delay line and return the one of ``delay`` cycles ago. */
+/* Put a current into the delay line and return the one of `delay` cycles ago. */
 static double delayed(const FrictionTable *table, FrictionState *state, double current)
 {
     state->line[state->head] = current;
@@ -593,7 +593,7 @@ static void begin_leadscrew(const LeadscrewTable *table, LeadscrewState *state, 
     state->reversal_step = table->reversal_cycles;
 }
 
-/* Return −Δ at full weight; ``position``: the input of the compensation, whose changes give the direction. */
+/* Return −Δ at full weight; `position`: the input of the compensation, whose changes give the direction. */
 static double leadscrew_value(const double *pool, const LeadscrewTable *table, LeadscrewState *state, double position,
         double modulo_range)
 {
@@ -672,7 +672,7 @@ static double plane_value(const double *pool, const PlaneTable *table, double ma
  * absorbed while a release is under way waits for the next one.
  */
 
-/* Take the shift back over ``shift_cycles`` cycles, from the first motion on. */
+/* Take the shift back over `shift_cycles` cycles, from the first motion on. */
 static void release_shift(const AxisTable *table, ShiftState *shift, bool moving)
 {
     if (moving && shift->step == 0 && (shift->waiting_before_leadscrew != 0.0 || shift->waiting_leadscrew != 0.0)) {
@@ -733,7 +733,7 @@ static int32_t find_cell(const double *pool, const ErrorBlock *block, int32_t d,
     return low;
 }
 
-/* Add what ``add_from_grid`` adds, for one argument: most tables have no more. */
+/* Add what `add_from_grid` adds, for one argument: most tables have no more. */
 static void add_from_line(const double *pool, const ErrorBlock *block, double x, double errors[ERRORS])
 {
     int32_t first = block->knots[0];
@@ -747,7 +747,7 @@ static void add_from_line(const double *pool, const ErrorBlock *block, double x,
     }
 }
 
-/* Add the weighted values of the node whose values begin at ``at``. */
+/* Add the weighted values of the node whose values begin at `at`. */
 static void add_node(const double *pool, const ErrorBlock *block, int32_t at, double weight, double errors[ERRORS])
 {
     for (int32_t p = 0; p < block->errors; p++) {
@@ -859,7 +859,7 @@ static void add_from_path(const double *pool, const ErrorBlock *block, const dou
     }
 }
 
-/* Put the errors at a position (mm, °) into ``errors``, which is 0 before. */
+/* Put the errors at a position (mm, °) into `errors`, which is 0 before. */
 static void errors_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
         double errors[ERRORS])
 {
@@ -903,7 +903,7 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
  * columns carries W and J from the tool to the workpiece. Matrices are row by row.
  */
 
-/* Map the first columns of a frame by x ↦ M·x + o; if ``side`` is negative by x ↦ M·(x − o). */
+/* Map the first columns of a frame by x ↦ M·x + o; if `side` is negative by x ↦ M·(x − o). */
 static void apply(const double m[9], const double o[3], double side, int32_t columns, double frame[FRAME])
 {
     if (side < 0.0) {
@@ -936,7 +936,7 @@ static void apply(const double m[9], const double o[3], double side, int32_t col
     }
 }
 
-/* Put Rz(c)·Ry(b)·Rx(a) into ``m``, angles in rad. */
+/* Put Rz(c)·Ry(b)·Rx(a) into `m`, angles in rad. */
 static void rotation(double a, double b, double c, double m[9])
 {
     if (a == 0.0 && b == 0.0 && c == 0.0) {
@@ -976,9 +976,9 @@ static void turn(const double m[9], double v[3])
     v[2] = m[6] * x + m[7] * y + m[8] * z;
 }
 
-/* Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one.
+/* Put the map of X, Y or Z into `m` and `o`; `along`, the nominal direction, becomes the actual one.
  *
- * At the workpiece ``q`` and ``along`` both have the opposite sign.
+ * At the workpiece `q` and `along` both have the opposite sign.
  */
 static void linear_axis(int32_t letter, double q, const double errors[ERRORS], double m[9], double o[3],
         double along[3])
@@ -1008,7 +1008,7 @@ static void about_center(const VolumetricTable *table, int32_t letter, const dou
     }
 }
 
-/* Put the rotation by ``q`` in ° about the unit vector ``e`` into ``m``. */
+/* Put the rotation by `q` in ° about the unit vector `e` into `m`. */
 static void rotation_about(const double e[3], double q, double m[9])
 {
     double angle = fold(q, 0.0, 360.0) * DEGREE;
@@ -1028,7 +1028,7 @@ static void rotation_about(const double e[3], double q, double m[9])
     m[7] += s * e[0];
 }
 
-/* Put the map of A, B or C without errors into ``m`` and ``o``; ``q`` in °. */
+/* Put the map of A, B or C without errors into `m` and `o`; `q` in °. */
 static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3])
 {
     double axis[3] = {0};
@@ -1040,7 +1040,7 @@ static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, do
     about_center(table, letter, m, o);
 }
 
-/* Replace ``m`` by a·m. */
+/* Replace `m` by a·m. */
 static void multiply_from_left(const double a[9], double m[9])
 {
     for (int32_t j = 0; j < LINEAR; j++) {
@@ -1053,7 +1053,7 @@ static void multiply_from_left(const double a[9], double m[9])
     }
 }
 
-/* Put the map of A, B or C into ``m`` and ``o``; ``q`` in °. */
+/* Put the map of A, B or C into `m` and `o`; `q` in °. */
 static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, const double errors[ERRORS],
         double m[9], double o[3])
 {
@@ -1172,7 +1172,7 @@ static double volume(const double frame[FRAME])
             + frame[5] * (frame[6] * frame[10] - frame[7] * frame[9]);
 }
 
-/* Put the inverse of J into ``inverse``; J is not singular. */
+/* Put the inverse of J into `inverse`; J is not singular. */
 static void invert(const double frame[FRAME], double inverse[9])
 {
     double determinant = volume(frame);
@@ -1185,7 +1185,7 @@ static void invert(const double frame[FRAME], double inverse[9])
     }
 }
 
-/* Put Δ with W(q + Δ) = nominal W(q) into ``correction``; False: X, Y and Z are dependent here.
+/* Put Δ with W(q + Δ) = nominal W(q) into `correction`; false: X, Y and Z are dependent here.
  *
  * Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
  * position is singular.
@@ -1203,7 +1203,7 @@ static bool correction_at(const VolumetricTable *table, const double position[LE
     invert(actual, inverse);
     double residual[LINEAR] = {0};
     double change[LINEAR] = {0};  /* of the linear axes in the order of the columns of J */
-    for (int32_t _ = 0; _ < ITERATIONS; _++) {
+    for (int32_t i = 0; i < ITERATIONS; i++) {
         double largest = 0.0;
         for (int32_t d = 0; d < LINEAR; d++) {
             residual[d] = actual[d] - nominal[d]
@@ -1228,7 +1228,7 @@ static bool correction_at(const VolumetricTable *table, const double position[LE
  *
  * Switching the volumetric compensations: what is on, with which weight, and what is absorbed without motion.
  *
- * A switch takes ``filter_steps`` cycles along 10u³ − 15u⁴ + 6u⁵; a change of mind midway turns round where it is. Where
+ * A switch takes `filter_steps` cycles along 10u³ − 15u⁴ + 6u⁵; a change of mind midway turns round where it is. Where
  * an axis must not move, what its correction loses or gains becomes a shift that stays until the next switch (semantics
  * §10).
  */
@@ -1278,7 +1278,7 @@ static void drop_axis(VolumetricState *volumetric, int32_t letter)
     }
 }
 
-/* Take out the axes that are in error or have lost their reference; True: there are none. */
+/* Take out the axes that are in error or have lost their reference; true: there are none. */
 static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs)
 {
     bool ready = true;
@@ -1564,8 +1564,9 @@ static void compensate_volume(const Tables *tables, State *state, const Inputs *
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
 static void accept(AxisState *axis, const AxisInputs *given)
 {
-    axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST && -LARGEST < given->velocity
-            && given->velocity < LARGEST && -LARGEST < given->acceleration && given->acceleration < LARGEST
+    axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
+            && -LARGEST < given->velocity && given->velocity < LARGEST
+            && -LARGEST < given->acceleration && given->acceleration < LARGEST
             && -LARGEST < given->actual_position && given->actual_position < LARGEST);
     if (!axis->held) {
         axis->moving = axis->started && (given->setpoint != axis->setpoint || given->velocity != 0.0);
@@ -1575,7 +1576,7 @@ static void accept(AxisState *axis, const AxisInputs *given)
     }
 }
 
-/* Cross compensation of the slave ``axis``. */
+/* Cross compensation of the slave `axis`. */
 static void correct_by_cross(const double *pool, const AxisTable *table, AxisState *axis, const AxisState *master,
         AxisOutputs *out)
 {
@@ -1585,7 +1586,7 @@ static void correct_by_cross(const double *pool, const AxisTable *table, AxisSta
     absorb_before_leadscrew(&axis->shift, axis->cross.switching.absorbed * value);
 }
 
-/* Plane compensation of the slave ``axis``. */
+/* Plane compensation of the slave `axis`. */
 static void correct_by_plane(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
         AxisOutputs *out)
 {
@@ -1597,7 +1598,7 @@ static void correct_by_plane(const double *pool, const AxisTable *table, AxisSta
     absorb_before_leadscrew(&axis->shift, axis->plane.switching.absorbed * value);
 }
 
-/* Crosstalk compensation of the slave ``axis``. */
+/* Crosstalk compensation of the slave `axis`. */
 static void correct_by_crosstalk(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
         AxisOutputs *out)
 {
@@ -1776,7 +1777,7 @@ static void forget(Lookup *lookup)
     lookup->interval = 0;
 }
 
-/* Make the state of an axis fit its new tables (``update_error`` is 0); what no longer exists puts out 0. */
+/* Make the state of an axis fit its new tables (`update_error` is 0); what no longer exists puts out 0. */
 void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisState *axis, AxisOutputs *out)
 {
     adopt_switch(&before->cross.switching, &after->cross.switching, &axis->cross.switching);
@@ -1817,7 +1818,7 @@ void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisStat
 
 /* ============================== volumetric_fit ==============================
  *
- * Whether the tables of a volumetric compensation can be trusted (see ``fit``).
+ * Whether the tables of a volumetric compensation can be trusted (see `fit`).
  */
 
 /* Tell whether members and letters mean axes. */
@@ -1827,8 +1828,8 @@ static bool members_fit(const VolumetricTable *table, int32_t axes)
         return false;
     }
     for (int32_t m = 0; m < table->members; m++) {
-        if (!(0 <= table->member[m] && table->member[m] < axes && 0 <= table->member_letter[m]
-                && table->member_letter[m] < LETTERS)) {
+        if (!(0 <= table->member[m] && table->member[m] < axes
+                && 0 <= table->member_letter[m] && table->member_letter[m] < LETTERS)) {
             return false;
         }
     }
@@ -1846,8 +1847,8 @@ static bool members_fit(const VolumetricTable *table, int32_t axes)
 /* Tell whether the kinematic chain has letters only. */
 static bool chain_fits(const VolumetricTable *table)
 {
-    if (!(LINEAR <= table->chain_length && table->chain_length <= LETTERS && 0 <= table->workpiece_axes
-            && table->workpiece_axes <= table->chain_length)) {
+    if (!(LINEAR <= table->chain_length && table->chain_length <= LETTERS
+            && 0 <= table->workpiece_axes && table->workpiece_axes <= table->chain_length)) {
         return false;
     }
     for (int32_t k = 0; k < table->chain_length; k++) {
@@ -1909,8 +1910,8 @@ static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numb
     if (!(1 <= block->errors && block->errors <= ERRORS && 1 <= block->arguments && block->arguments <= LETTERS)) {
         return false;
     }
-    if (!(INTERPOLATE_GRID <= block->interpolation && block->interpolation <= INTERPOLATE_PATH && 1 <= block->nodes
-            && block->nodes <= int_floor_div(numbers, block->errors))) {
+    if (!(INTERPOLATE_GRID <= block->interpolation && block->interpolation <= INTERPOLATE_PATH
+            && 1 <= block->nodes && block->nodes <= int_floor_div(numbers, block->errors))) {
         return false;
     }
     if (!(range_fits(block->error, block->errors, numbers) && counts(pool, block->error, block->errors, ERRORS))) {
@@ -2013,8 +2014,8 @@ static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers)
 /* Tell whether the grid of tests can be used. */
 static bool grid_fits(const double *pool, const CrosstalkTable *table, int32_t numbers)
 {
-    if (!(1 < table->points1 && table->points1 <= table->tests && 1 < table->points2
-            && table->points2 <= table->tests)) {
+    if (!(1 < table->points1 && table->points1 <= table->tests
+            && 1 < table->points2 && table->points2 <= table->tests)) {
         return false;
     }
     if (table->points2 != int_floor_div(table->tests, table->points1)
@@ -2030,8 +2031,8 @@ static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32
     if (!(range_fits(table->x1, table->tests, numbers) && range_fits(table->x2, table->tests, numbers))) {
         return false;
     }
-    if (!(1 <= table->triangles && table->triangles <= int_floor_div(numbers, 3) && 1 <= table->edges
-            && table->edges <= int_floor_div(numbers, 2))) {
+    if (!(1 <= table->triangles && table->triangles <= int_floor_div(numbers, 3)
+            && 1 <= table->edges && table->edges <= int_floor_div(numbers, 2))) {
         return false;
     }
     if (!range_fits(table->triangle, 3 * table->triangles, numbers)) {
@@ -2040,12 +2041,12 @@ static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32
     if (!range_fits(table->edge, 2 * table->edges, numbers)) {
         return false;
     }
-    for (int32_t k = 0, k_end = 3 * table->triangles; k < k_end; k++) {
+    for (int32_t k = 0; k < 3 * table->triangles; k++) {
         if (!(0.0 <= pool[table->triangle + k] && pool[table->triangle + k] < table->tests)) {
             return false;
         }
     }
-    for (int32_t k = 0, k_end = 2 * table->edges; k < k_end; k++) {
+    for (int32_t k = 0; k < 2 * table->edges; k++) {
         if (!(0.0 <= pool[table->edge + k] && pool[table->edge + k] < table->tests)) {
             return false;
         }
@@ -2065,8 +2066,8 @@ static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int3
     if (table->variant == CROSSTALK_CURVE) {
         return curve_fits(pool, &table->curve, numbers);
     }
-    if (!(CROSSTALK_CURVE < table->variant && table->variant <= CROSSTALK_TRIANGLES && 1 <= table->tests
-            && table->tests <= int_floor_div(numbers, 4))) {
+    if (!(CROSSTALK_CURVE < table->variant && table->variant <= CROSSTALK_TRIANGLES
+            && 1 <= table->tests && table->tests <= int_floor_div(numbers, 4))) {
         return false;
     }
     if (!(table->acceleration > 0.0 && table->deceleration < 0.0)) {

@@ -134,6 +134,7 @@ typedef struct {
 extern "C" {
 #endif
 
+/* Move every part by one step. */
 AXCOMP_API double axcomp_step(Machine *machine, const double *table, bool forward);
 
 #ifdef __cplusplus
@@ -292,3 +293,52 @@ def test_a_long_line_is_broken_where_it_binds_least(build: Builder) -> None:
     lines = [line for line in source.splitlines() if "factor" in line]
     assert max(map(len, lines)) <= 120
     assert any(line.startswith("            + (first_factor * ") for line in lines)
+
+
+def test_a_chain_of_comparisons_stays_on_one_line(build: Builder) -> None:
+    names = [f"quantity_{k}" for k in range(4)]
+    chains = " and ".join(f"-1.0 < {name} < 1.0" for name in names)
+    parameters = ", ".join(f"{name}: float" for name in names)
+    source = build(PREAMBLE + f"def f({parameters}) -> bool:\n    return {chains}\n", ["f"]).translation.source
+    parts = [f"-1.0 < {name} && {name} < 1.0" for name in names]
+    assert f"    return {parts[0]} && {parts[1]}\n            && {parts[2]} && {parts[3]};\n" in source
+
+
+def test_constants_are_named_in_indices_lengths_and_bounds(build: Builder) -> None:
+    text = PREAMBLE + (
+        "EA = 9\n_PER_AXIS = 12\nERRORS = 72\n"
+        "def f(letter: int) -> float:\n"
+        "    errors = zeros(ERRORS)\n"
+        "    e = _PER_AXIS * letter\n"
+        "    for k in range(EA * letter):\n"
+        "        errors[k] = 1.0\n"
+        "    errors[e + EA] = 2.0\n"
+        "    return errors[_PER_AXIS * 2 + EA] + g(errors)\n"
+        "def g(errors: Annotated[list[float], ERRORS]) -> float:\n"
+        "    return errors[EA]\n"
+    )
+    source = build(text, ["f"]).translation.source
+    for line in (
+        "double errors[ERRORS] = {0};",
+        "int32_t e = PER_AXIS * letter;",
+        "for (int32_t k = 0; k < EA * letter; k++) {",
+        "errors[e + EA] = 2.0;",
+        "return errors[PER_AXIS * 2 + EA] + g(errors);",
+        "static double g(const double errors[ERRORS])",
+        "return errors[EA];",
+    ):
+        assert f"{line}\n" in source
+
+
+def test_a_counter_that_nobody_reads_gets_a_name(build: Builder) -> None:
+    text = PREAMBLE + "def f(i: int) -> int:\n    for _ in range(3):\n        i += i\n    return i\n"
+    built = build(text, ["f"])
+    assert "for (int32_t i_ = 0; i_ < 3; i_++) {" in built.translation.source
+    assert built.native.axcomp_f(5) == 40
+
+
+def test_comments_write_code_and_truth_values_as_c_does(build: Builder) -> None:
+    text = PREAMBLE + 'def f(x: bool) -> bool:\n    """Return ``x``; True: it is."""\n    return x  # False: Falsity\n'
+    source = build(text, ["f"]).translation.source
+    assert "/* Return `x`; true: it is. */" in source
+    assert "return x;  /* false: Falsity */" in source
