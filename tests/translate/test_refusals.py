@@ -24,7 +24,6 @@ class All:
     part: Part
     other: Part
     parts: Annotated[list[Part], N]
-    table: Vec
 
 def change(p: Part) -> float:
     p.x = p.x + 1.0
@@ -36,7 +35,7 @@ def look(p: Part) -> float:
 """
 
 BODIES = [
-    # lines of f(a: All, x: float, n: int, b: bool) -> float, the refused one of them, part of the sentence
+    # lines of f(a: All, table: Vec, x: float, n: int, b: bool) -> float, the refused one of them, part of the sentence
     ("y, z = x, x", 1, "tuple"),
     ("return (x, x)", 1, "tuple"),
     ("y = z = x", 1, "one target"),
@@ -78,7 +77,7 @@ BODIES = [
     ("a.part = a.other", 1, "Python would share it, C would copy it"),
     ("a.part.line = a.other.line", 1, "Python would share it, C would copy it"),
     ("a.parts[n] = a.part", 1, "Python would share it, C would copy it"),
-    ("a.table[0] = x", 1, "only read"),
+    ("table[0] = x", 1, "only read"),
     ("a = a.part", 1, "not rebound"),
     ("p = a.part if b else a.other\np.x = x", 1, "same kind of number"),
     ("x = a.part.line[-1]", 1, "negative index"),
@@ -225,8 +224,8 @@ def refusals(tmp_path: Path, text: str, exports: tuple[str, ...] = ("f",)) -> li
 
 @pytest.mark.parametrize(("body", "line", "sentence"), BODIES, ids=[body.partition("\n")[0] for body, _, _ in BODIES])
 def test_a_body_outside_the_subset_is_refused_at_its_line(tmp_path: Path, body: str, line: int, sentence: str) -> None:
-    start = PREAMBLE + RECORDS + "def f(a: All, x: float, n: int, b: bool) -> float:\n"
-    read_all = "    if b:\n        x += float(n) + look(a.part)\n"
+    start = PREAMBLE + RECORDS + "def f(a: All, table: Vec, x: float, n: int, b: bool) -> float:\n"
+    read_all = "    if b:\n        x += float(n) + look(a.part) + table[0]\n"
     lines = "".join(f"    {one}\n" for one in body.split("\n"))
     found = refusals(tmp_path, f"{start}{lines}{read_all}    return x\n")
     place = start.count("\n") + line
