@@ -242,6 +242,30 @@ def test_a_definition_outside_the_subset_is_refused_at_its_line(
     assert any(where == PREAMBLE.count("\n") + line and sentence in what for _, where, what in found), found
 
 
+def test_a_record_that_holds_a_vec_is_refused_once_by_module_record_and_field(tmp_path: Path) -> None:
+    record = "@dataclass(slots=True)\nclass Table:\n    scale: float\n    pool: Vec  # numbers\n"
+    user = (
+        "from .tables import Table\n\n\ndef f(table: Table, i: int) -> float:\n    pool = table.pool\n"
+        "    return g(pool, i) * table.scale + table.pool[0]\n\n\n"
+    )
+    taker = "def g(pool: Vec, i: int) -> float:\n    return pool[i]\n"
+    folder = write_package(tmp_path / "package", {"tables": PREAMBLE + record, "user": PREAMBLE + user + taker})
+    with pytest.raises(TranslationError) as error:
+        translate(folder, ("f",))
+    line = PREAMBLE.count("\n") + 4
+    assert str(error.value) == (
+        f"{folder / 'tables.py'}:{line}: pool of the record Table in tables is a Vec, a pointer in"
+        " C, and a record holds none: keep an offset, and hand the Vec to the functions as a parameter"
+    )
+
+
+def test_a_vec_is_handed_on_from_parameter_to_parameter(tmp_path: Path) -> None:
+    caller = "def f(pool: Vec) -> float:\n    numbers = pool\n    return g(numbers)\n"
+    text = f"{caller}def g(pool: Vec) -> float:\n    return pool[1]\n"
+    source = translate(write_package(tmp_path / "package", {"functions": PREAMBLE + text}), ("f",)).source
+    assert "double axcomp_f(const double *pool)\n{\n    const double *numbers = pool;\n    return g(numbers);" in source
+
+
 def test_every_refusal_of_every_module_is_reported_at_once(tmp_path: Path) -> None:
     first = "A = 1\n\n\ndef g(x: float) -> float:\n    y = x ** 2.0\n    z = [x]\n    return y + z\n"
     second = "from .first import A, g\n\n\ndef f(x: float) -> float:\n    x = x % 2.0\n    return g(x) + unknown\n"
