@@ -7,7 +7,7 @@ function that writes through its parameter, or if an alias of it is written thro
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from .program import Function, Program
@@ -134,6 +134,22 @@ class Effects:
                 found.add(function.c_name)
                 waiting += self.callees(function)
         return found
+
+    def callees_first(self, functions: Sequence[Function]) -> list[Function]:
+        """Return the functions of a module, each behind those of them that it calls, else in the order given."""
+        ordered: list[Function] = []
+
+        def visit(function: Function) -> None:
+            if function not in ordered:
+                called = self.callees(function)
+                for callee in functions:
+                    if callee in called:
+                        visit(callee)
+                ordered.append(function)
+
+        for function in functions:
+            visit(function)
+        return ordered
 
     def check_recursion(self, function: Function) -> None:
         """Refuse a function that calls itself, directly or through others: a step has a bounded stack."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .effects import Effects, calls
+from .effects import Effects
 from .kinds import struct_field
 from .program import Constant, Definition, Function, Program, Record
 from .source import Module, read_modules
@@ -108,6 +108,9 @@ def _header(program: Program, effects: Effects, name: str, origin: str) -> str:
     for function in program.functions():
         if function.exported:
             writer.blank()
+            text = ast.get_docstring(function.node)
+            if text:
+                writer.remark(text.partition("\n\n")[0])
             writer.write(f"{api} {prototype(function, effects)};")
     writer.blank()
     writer.extend(["#ifdef __cplusplus", "}", "#endif", "", "#endif"])
@@ -127,47 +130,25 @@ def _source(program: Program, effects: Effects, bodies: dict[str, list[str]], na
         writer.blank()
         writer.remark("As Python has them: the first of equals, and division rounded down.")
         writer.extend(helpers)
-    early = _called_early(program, functions)
-    if early:
-        writer.blank()
-        for function in early:
-            writer.write(f"{prototype(function, effects)};")
     for module in program.modules:
-        shown = [
-            definition
-            for definition in program.definitions
-            if definition.module is module
-            and (definition in functions if isinstance(definition, Function) else not _in_header(definition))
-        ]
-        if shown:
+        hidden = [d for d in program.definitions if d.module is module and not _in_header(d)]
+        constants = [definition for definition in hidden if isinstance(definition, Constant)]
+        own = effects.callees_first([function for function in functions if function.module is module])
+        if constants or own:
             _section(writer, module, described=bool(module.functions()))
-        for definition in shown:
-            if isinstance(definition, Function):
-                writer.blank()
-                _lead_in(writer, definition)
-                _write_function(writer, definition, effects, bodies[definition.c_name])
-            else:
-                _lead_in(writer, definition)
-                _write_definition(writer, definition)
+        for constant in constants:
+            _lead_in(writer, constant)
+            _write_constant(writer, constant)
+        for function in own:
+            writer.blank()
+            _lead_in(writer, function)
+            _write_function(writer, function, effects, bodies[function.c_name])
     return writer.text()
 
 
 def _in_header(definition: Definition) -> bool:
     """Whether other C files see it: records, and constants that are not private to their module."""
     return isinstance(definition, Record) or (isinstance(definition, Constant) and not definition.name.startswith("_"))
-
-
-def _called_early(program: Program, functions: list[Function]) -> list[Function]:
-    """Return the static functions that are called above their definition."""
-    seen: set[str] = set()
-    early: dict[str, Function] = {}
-    for function in functions:
-        seen.add(function.c_name)
-        for _, name in calls(function.node):
-            callee = program.function_named(function.module, name)
-            if callee and callee.c_name not in seen and not callee.exported:
-                early[callee.c_name] = callee
-    return list(early.values())
 
 
 def _section(writer: Writer, module: Module, *, described: bool) -> None:

@@ -13,6 +13,7 @@ from .kinds import NUMBERS, VEC, ArrayType, RecordType, Scalar, Type, VecType, e
 from .program import BROKEN, Constant, Function, Intrinsic, Number, Program, check_range, fold
 from .source import Module
 from .subset import TEXT, RefusedError, outside
+from .writer import UNBROKEN
 
 CONDITION, OR, AND, BIT_OR, BIT_AND, EQUAL, ORDER, SHIFT, SUM, PRODUCT, UNARY, POSTFIX = range(12)
 """C's precedence, weakest first."""
@@ -36,6 +37,7 @@ _COMPARE: dict[type[ast.cmpop], tuple[str, int]] = {
     ast.Eq: ("==", EQUAL),
     ast.NotEq: ("!=", EQUAL),
 }
+_AND_IN_CHAIN = f"{UNBROKEN}&&{UNBROKEN}"
 _HINTS = {
     "int for float": ": write 0.0 for 0, or float(…)",
     "float for int": ": write int(…)",
@@ -248,7 +250,7 @@ class Expressions:
             sign, level = _COMPARE[type(kind)]
             parts.append(Text(f"{left.at(SHIFT)} {sign} {right.at(SHIFT)}", level, Scalar.BOOL))
             left = right
-        return parts[0] if len(parts) == 1 else Text(" && ".join(part.c for part in parts), AND, Scalar.BOOL)
+        return parts[0] if len(parts) == 1 else Text(_AND_IN_CHAIN.join(part.c for part in parts), AND, Scalar.BOOL)
 
     def _choice(self, node: ast.IfExp, test: Text, body: Text, orelse: Text) -> Text:
         if body.kind not in NUMBERS or body.kind != orelse.kind:

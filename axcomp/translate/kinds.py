@@ -94,11 +94,8 @@ def local(kind: Type, name: str, *, const: bool) -> str:
 
 
 def struct_field(kind: Type, name: str) -> str:
-    """Declare a field of a struct, which holds its records and arrays itself."""
-    match kind:
-        case Scalar() | RecordType():
-            return f"{_base(kind)} {name}"
-        case ArrayType():
-            return f"{_base(kind.element)} {name}[{kind.length_text}]"
-        case VecType():
-            return f"const double *{name}"
+    """Declare a field of a struct, which holds its records and arrays itself, and no Vec."""
+    assert not isinstance(kind, VecType)
+    if isinstance(kind, ArrayType):
+        return f"{_base(kind.element)} {name}[{kind.length_text}]"
+    return f"{_base(kind)} {name}"

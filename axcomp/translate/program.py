@@ -330,11 +330,18 @@ class Program:
         self._define(record)
 
     def _check_fields(self, record: Record) -> None:
-        """Refuse fields that are called like a constant: C would put the number in their place."""
+        """Refuse fields that are pointers, and those called like a constant: C would put the number in their place."""
+        module = record.module
         for item in record.node.body:
             match item:
                 case ast.AnnAssign(target=ast.Name(id=name)) if isinstance(self.defined_as(name), Constant):
-                    self.report.add(record.module.file, RefusedError(item, f"{name} is also the name of a constant"))
+                    self.report.add(module.file, RefusedError(item, f"{name} is also the name of a constant"))
+                case ast.AnnAssign(target=ast.Name(id=name)) if record.fields.get(name) == VEC:
+                    sentence = (
+                        f"{name} of the record {record.name} in {module.name} is a Vec, a pointer in C, and a record"
+                        " holds none: keep an offset, and hand the Vec to the functions as a parameter"
+                    )
+                    self.report.add(module.file, RefusedError(item, sentence))
 
     def _function(self, module: Module, node: ast.FunctionDef) -> None:
         arguments = node.args

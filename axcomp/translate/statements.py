@@ -329,12 +329,19 @@ class Body:
             raise RefusedError(node, f"{name} counts this loop: it is not used for anything else")
         bounds = [self._expressions.of(bound, Scalar.INT, "a bound of range") for bound in node.iter.args]
         start = bounds[0].c if len(bounds) == 2 else "0"
+        if name == "_" and all(part.id != name for part in names_in(node, ast.Load)):
+            name = self._unused("i")
         if self._is_fixed(node.iter.args[-1], node):
             return f"for (int32_t {name} = {start}; {name} < {bounds[-1].at(SHIFT)}; {name}++) {{"
-        end = f"{name}_end"
-        while mentions(self._function.node, end) or end in self._function.parameters:
-            end += "_"
+        end = self._unused(f"{name}_end")
         return f"for (int32_t {name} = {start}, {end} = {bounds[-1].c}; {name} < {end}; {name}++) {{"
+
+    def _unused(self, name: str) -> str:
+        """Return a name that means nothing else in the function, the given one if possible."""
+        function = self._function
+        while mentions(function.node, name) or name in function.parameters or self._program.defined_as(name):
+            name += "_"
+        return name
 
     def _is_fixed(self, node: ast.expr, loop: ast.For) -> bool:
         """Whether an expression keeps its value while the loop runs: Python evaluates it once, C in every round."""
@@ -351,7 +358,7 @@ class Body:
                     and self._is_fixed(value, loop)
                     and (self._is_fixed(index, loop))
                 )
-            case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
+            case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult(), right=right):
                 return self._is_fixed(left, loop) and self._is_fixed(right, loop)
         return False
 

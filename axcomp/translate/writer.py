@@ -8,13 +8,20 @@ from collections.abc import Sequence
 WIDTH = 120
 _STEP = "    "
 _BREAK = re.compile(r"(?<=[,;]) | (?=(&&|\|\||[-+*/?:&|]|<<|>>|<=|>=|==|!=|<|>) )")
+_TRUTH = re.compile(r"\b(True|False)\b")
 _BINDING = ("?", ":", "||", "&&", "==", "!=", "<", ">", "<=", ">=", "|", "&", "<<", ">>", "+", "-", "*", "/")
 """Operators, weakest first: a line is broken at a weak one."""
+UNBROKEN = "\N{NO-BREAK SPACE}"
+"""A space where no line is broken."""
 
 
 def comment(text: str) -> list[str]:
-    """Return a text as the lines of one C comment; what C would read as the end of it is taken apart."""
-    safe = text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
+    """Return a text as the lines of one C comment, truth values and code quoted as C has them.
+
+    What C would read as the end of the comment is taken apart.
+    """
+    safe = text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace("``", "`")
+    safe = _TRUTH.sub(lambda match: match[0].lower(), safe)
     lines = [line.rstrip() for line in safe.splitlines()]
     if len(lines) <= 1:
         return [f"/* {safe.strip()} */"]
@@ -75,7 +82,7 @@ def wrap(line: str, indent: int) -> list[str]:
         best = min(places, key=lambda match: _cost(line, match)).start()
         lines.append(line[:best])
         line = " " * start + line[best + 1 :]
-    return [*lines, line]
+    return [part.replace(UNBROKEN, " ") for part in (*lines, line)]
 
 
 def _cost(line: str, match: re.Match[str]) -> tuple[int, int, int]:

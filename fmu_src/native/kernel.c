@@ -20,95 +20,6 @@ static inline int32_t int_min(int32_t a, int32_t b) { return b < a ? b : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
-static bool range_fits(int32_t first, int32_t count, int32_t numbers);
-static double test_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
-        double position1, double position2);
-static double scattered_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
-        double x, double y);
-static double line_value(const double *pool, int32_t abscissae, int32_t values, int32_t points, double x,
-        Lookup *lookup);
-static double grid_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
-        double x1, double x2);
-static bool outside_grid(const double *pool, const CrosstalkTable *table, double x1, double x2);
-static double hull_value(const double *pool, const CrosstalkTable *table, int32_t values, double x, double y);
-static void advance(const SwitchTable *table, SwitchState *state, const AxisState *axis, const AxisInputs *given,
-        bool enable, bool ready, bool released);
-static double delayed(const FrictionTable *table, FrictionState *state, double current);
-static void decay_delayed(const FrictionTable *table, FrictionState *state);
-static double build_up(const FrictionTable *table, FrictionState *state, double position, double modulo_range);
-static double decay_predicted(const FrictionTable *table, double velocity, double acceleration, double cycle_time);
-static double grid_coordinate(double x, double start, double interval, int32_t points);
-static int32_t grid_cell(double u, int32_t points);
-static void add_from_line(const double *pool, const ErrorBlock *block, double x, double errors[ERRORS]);
-static void add_from_grid(const double *pool, const ErrorBlock *block, const double x[LETTERS], double errors[ERRORS]);
-static void add_from_scatter(const double *pool, const ErrorBlock *block, const double x[LETTERS],
-        double errors[ERRORS]);
-static void add_from_path(const double *pool, const ErrorBlock *block, const double x[LETTERS], double errors[ERRORS]);
-static int32_t find_cell(const double *pool, const ErrorBlock *block, int32_t d, double x);
-static void add_node(const double *pool, const ErrorBlock *block, int32_t at, double weight, double errors[ERRORS]);
-static double square_distance(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS]);
-static void carry_to_workpiece(const VolumetricTable *table, const double position[LETTERS], double tool_length,
-        const double errors[ERRORS], double nominal[FRAME], double actual[FRAME]);
-static void invert(const double frame[FRAME], double inverse[9]);
-static void turn(const double m[9], double v[3]);
-static double volume(const double frame[FRAME]);
-static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3]);
-static void apply(const double m[9], const double o[3], double side, int32_t columns, double frame[FRAME]);
-static void linear_axis(int32_t letter, double q, const double errors[ERRORS], double m[9], double o[3],
-        double along[3]);
-static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, const double errors[ERRORS],
-        double m[9], double o[3]);
-static void transpose(double m[9]);
-static void rotation(double a, double b, double c, double m[9]);
-static void rotation_about(const double e[3], double q, double m[9]);
-static void about_center(const VolumetricTable *table, int32_t letter, const double m[9], double o[3]);
-static void multiply_from_left(const double a[9], double m[9]);
-static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs);
-static void advance_weight(const VolumetricTable *table, VolumetricState *volumetric);
-static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
-        bool command);
-static void stop_without_motion(VolumetricState *volumetric);
-static void set_error(const VolumetricTable *table, State *state, int32_t error);
-static void release_shifts(const VolumetricTable *table, VolumetricState *volumetric);
-static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, State *state);
-static bool can_turn_round(const VolumetricState *volumetric);
-static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter);
-static void drop_axis(VolumetricState *volumetric, int32_t letter);
-static void contribute(const VolumetricTable *table, VolumetricState *volumetric, State *state);
-static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state);
-static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state);
-static void accept(AxisState *axis, const AxisInputs *given);
-static void correct_axis(const Tables *tables, State *state, const Inputs *inputs, AxisOutputs *out, int32_t i);
-static void correct_by_cross(const double *pool, const AxisTable *table, AxisState *axis, const AxisState *master,
-        AxisOutputs *out);
-static void correct_by_plane(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
-        AxisOutputs *out);
-static void correct_by_crosstalk(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
-        AxisOutputs *out);
-static void correct_by_leadscrew(const double *pool, const AxisTable *table, AxisState *axis, double position,
-        AxisOutputs *out);
-static void add_friction_current(const Tables *tables, const AxisTable *table, AxisState *axis, AxisOutputs *out);
-static bool appears(const SwitchTable *before, const SwitchTable *after);
-static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state);
-static void forget(Lookup *lookup);
-static bool members_fit(const VolumetricTable *table, int32_t axes);
-static bool chain_fits(const VolumetricTable *table);
-static bool counts(const double *pool, int32_t first, int32_t count, int32_t limit);
-static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numbers);
-static bool knots_fit(const double *pool, const ErrorBlock *block, int32_t numbers);
-static bool steps_fit(const double *pool, const ErrorBlock *block, int32_t d, int32_t numbers);
-static bool axis_fits(const double *pool, const AxisTable *table, int32_t axes, int32_t numbers);
-static bool friction_fits(const double *pool, const FrictionTable *table, int32_t numbers);
-static bool cross_fits(const double *pool, const CrossTable *table, int32_t axes, int32_t numbers);
-static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers);
-static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int32_t axes, int32_t numbers);
-static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int32_t numbers);
-static bool switch_fits(const SwitchTable *table);
-static bool index_fits(int32_t index, int32_t axes);
-static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers);
-static bool grid_fits(const double *pool, const CrosstalkTable *table, int32_t numbers);
-static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32_t numbers);
-
 /* ================================= initial ==================================
  *
  * The inputs before anybody sets them: referenced, and enabled what activates automatically.
@@ -193,6 +104,12 @@ static double nearest(double change, double length)
     return change;
 }
 
+/* Tell whether so many numbers from `first` on lie in the pool. */
+static bool range_fits(int32_t first, int32_t count, int32_t numbers)
+{
+    return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
+}
+
 /* Tell whether so many numbers lie in the pool and ascend strictly. */
 static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers)
 {
@@ -207,12 +124,6 @@ static bool ascending(const double *pool, int32_t first, int32_t points, int32_t
     return true;
 }
 
-/* Tell whether so many numbers from ``first`` on lie in the pool. */
-static bool range_fits(int32_t first, int32_t count, int32_t numbers)
-{
-    return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
-}
-
 /* ================================ crosstalk =================================
  *
  * Crosstalk compensation (kw.crosstalk): the slave is corrected while the master accelerates. Added.
@@ -221,48 +132,6 @@ static bool range_fits(int32_t first, int32_t count, int32_t numbers)
  * min(a/deceleration, 1). C_acc and C_dec may depend on the direction of the master and on the positions of one or two
  * adaptation axes. The old variant (manual 001) is a curve over a.
  */
-
-/* Return the correction at full weight, from the master's motion and the adaptation axes' positions. */
-static double crosstalk_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state,
-        double acceleration, double velocity, double position1, double position2)
-{
-    if (velocity > 0.0) {
-        state->negative = false;
-    } else if (velocity < 0.0) {
-        state->negative = true;
-    }
-    if (table->variant == CROSSTALK_CURVE) {
-        return curve_value(pool, &table->curve, acceleration, &state->lookup);
-    }
-
-    int32_t block = 0;
-    double share = acceleration / table->acceleration;
-    if (acceleration < 0.0) {
-        block = 2;
-        share = acceleration / table->deceleration;
-    }
-    if (table->velocity_dependent && state->negative) {
-        block = block + 1;
-    }
-    double value = test_value(pool, table, state, table->values + block * table->tests, position1, position2);
-    return value * double_min(share, 1.0);
-}
-
-/* Return one of the four corrections, interpolated between the tests; ``values``: where its block begins. */
-static double test_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
-        double position1, double position2)
-{
-    if (table->variant == CROSSTALK_CONSTANT) {
-        return pool[values];
-    }
-    if (table->variant == CROSSTALK_LINE) {
-        return line_value(pool, table->x1, values, table->tests, position1, &state->lookup);
-    }
-    if (table->variant == CROSSTALK_GRID) {
-        return grid_value(pool, table, state, values, position1, position2);
-    }
-    return scattered_value(pool, table, state, values, position1, position2);
-}
 
 /* Return the value linear between the points, the end values held outside. */
 static double line_value(const double *pool, int32_t abscissae, int32_t values, int32_t points, double x,
@@ -273,6 +142,15 @@ static double line_value(const double *pool, int32_t abscissae, int32_t values, 
     double x0 = pool[abscissae + i];
     double s = (x - x0) / (pool[abscissae + i + 1] - x0);
     return pool[values + i] + s * (pool[values + i + 1] - pool[values + i]);
+}
+
+/* Tell whether a point lies outside the grid of the tests. */
+static bool outside_grid(const double *pool, const CrosstalkTable *table, double x1, double x2)
+{
+    if (x1 < pool[table->x1] || x1 > pool[table->x1 + table->points1 - 1]) {
+        return true;
+    }
+    return x2 < pool[table->x2] || x2 > pool[table->x2 + table->points2 - 1];
 }
 
 /* Return the value bilinear between tests on a grid, the edge held outside. */
@@ -289,13 +167,28 @@ static double grid_value(const double *pool, const CrosstalkTable *table, Crosst
     return near + (x2 - y0) / (pool[table->x2 + j + 1] - y0) * (far - near);
 }
 
-/* Tell whether a point lies outside the grid of the tests. */
-static bool outside_grid(const double *pool, const CrosstalkTable *table, double x1, double x2)
+/* Return the value at the point of the hull that is nearest to (x, y). */
+static double hull_value(const double *pool, const CrosstalkTable *table, int32_t values, double x, double y)
 {
-    if (x1 < pool[table->x1] || x1 > pool[table->x1 + table->points1 - 1]) {
-        return true;
+    double value = 0.0;
+    double shortest = -1.0;
+    for (int32_t k = 0; k < table->edges; k++) {
+        int32_t a = (int32_t)pool[table->edge + 2 * k];
+        int32_t b = (int32_t)pool[table->edge + 2 * k + 1];
+        double ex = pool[table->x1 + b] - pool[table->x1 + a];
+        double ey = pool[table->x2 + b] - pool[table->x2 + a];
+        double px = x - pool[table->x1 + a];
+        double py = y - pool[table->x2 + a];
+        double t = double_min(double_max((px * ex + py * ey) / (ex * ex + ey * ey), 0.0), 1.0);
+        double dx = px - t * ex;
+        double dy = py - t * ey;
+        double distance = dx * dx + dy * dy;
+        if (shortest < 0.0 || distance < shortest) {
+            shortest = distance;
+            value = pool[values + a] + t * (pool[values + b] - pool[values + a]);
+        }
     }
-    return x2 < pool[table->x2] || x2 > pool[table->x2 + table->points2 - 1];
+    return value;
 }
 
 /* Return the value linear in the triangle that holds (x, y), else at the nearest point of the hull. */
@@ -324,28 +217,46 @@ static double scattered_value(const double *pool, const CrosstalkTable *table, C
     return hull_value(pool, table, values, x, y);
 }
 
-/* Return the value at the point of the hull that is nearest to (x, y). */
-static double hull_value(const double *pool, const CrosstalkTable *table, int32_t values, double x, double y)
+/* Return one of the four corrections, interpolated between the tests; `values`: where its block begins. */
+static double test_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state, int32_t values,
+        double position1, double position2)
 {
-    double value = 0.0;
-    double shortest = -1.0;
-    for (int32_t k = 0; k < table->edges; k++) {
-        int32_t a = (int32_t)pool[table->edge + 2 * k];
-        int32_t b = (int32_t)pool[table->edge + 2 * k + 1];
-        double ex = pool[table->x1 + b] - pool[table->x1 + a];
-        double ey = pool[table->x2 + b] - pool[table->x2 + a];
-        double px = x - pool[table->x1 + a];
-        double py = y - pool[table->x2 + a];
-        double t = double_min(double_max((px * ex + py * ey) / (ex * ex + ey * ey), 0.0), 1.0);
-        double dx = px - t * ex;
-        double dy = py - t * ey;
-        double distance = dx * dx + dy * dy;
-        if (shortest < 0.0 || distance < shortest) {
-            shortest = distance;
-            value = pool[values + a] + t * (pool[values + b] - pool[values + a]);
-        }
+    if (table->variant == CROSSTALK_CONSTANT) {
+        return pool[values];
     }
-    return value;
+    if (table->variant == CROSSTALK_LINE) {
+        return line_value(pool, table->x1, values, table->tests, position1, &state->lookup);
+    }
+    if (table->variant == CROSSTALK_GRID) {
+        return grid_value(pool, table, state, values, position1, position2);
+    }
+    return scattered_value(pool, table, state, values, position1, position2);
+}
+
+/* Return the correction at full weight, from the master's motion and the adaptation axes' positions. */
+static double crosstalk_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state,
+        double acceleration, double velocity, double position1, double position2)
+{
+    if (velocity > 0.0) {
+        state->negative = false;
+    } else if (velocity < 0.0) {
+        state->negative = true;
+    }
+    if (table->variant == CROSSTALK_CURVE) {
+        return curve_value(pool, &table->curve, acceleration, &state->lookup);
+    }
+
+    int32_t block = 0;
+    double share = acceleration / table->acceleration;
+    if (acceleration < 0.0) {
+        block = 2;
+        share = acceleration / table->deceleration;
+    }
+    if (table->velocity_dependent && state->negative) {
+        block = block + 1;
+    }
+    double value = test_value(pool, table, state, table->values + block * table->tests, position1, position2);
+    return value * double_min(share, 1.0);
 }
 
 /* =============================== trigonometry ===============================
@@ -446,9 +357,9 @@ static void begin_switch(const SwitchTable *table, SwitchState *state, bool enab
     state->absorbed = 0.0;
 }
 
-/* Take the command of this cycle, if there is one: an edge of ``enable``, or a manual compensation is released.
+/* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
  *
- * ``ready``: the conditions hold (references). ``released``: reset or program end. ``no_move``: the command is to move
+ * `ready`: the conditions hold (references). `released`: reset or program end. `no_move`: the command is to move
  * nothing, whenever it acts.
  */
 static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released,
@@ -467,8 +378,8 @@ static void heed_command(const SwitchTable *table, SwitchState *state, bool enab
 
 /* Advance the weight by one cycle.
  *
- * ``ready``: the conditions hold (references); while they do not, nothing is put out and a command need not wait.
- * ``moving``: the slave is in motion.
+ * `ready`: the conditions hold (references); while they do not, nothing is put out and a command need not wait.
+ * `moving`: the slave is in motion.
  */
 static void advance_switch(const SwitchTable *table, SwitchState *state, bool ready, bool moving)
 {
@@ -511,6 +422,21 @@ static void advance_switch(const SwitchTable *table, SwitchState *state, bool re
  * its axis: it needs the axis' own reference too.
  */
 
+/* Advance one switch by one cycle, or set it in the first. */
+static void advance(const SwitchTable *table, SwitchState *state, const AxisState *axis, const AxisInputs *given,
+        bool enable, bool ready, bool released)
+{
+    bool usable = ready && (given->referenced || !table->manual);
+    if (!axis->started) {
+        begin_switch(table, state, enable, usable, released);
+    } else if (axis->held) {
+        heed_command(table, state, enable, usable, released, given->no_move);
+    } else {
+        heed_command(table, state, enable, usable, released, given->no_move);
+        advance_switch(table, state, usable, axis->moving);
+    }
+}
+
 /* Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
  *
  * While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
@@ -549,27 +475,12 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
     }
 }
 
-/* Advance one switch by one cycle, or set it in the first. */
-static void advance(const SwitchTable *table, SwitchState *state, const AxisState *axis, const AxisInputs *given,
-        bool enable, bool ready, bool released)
-{
-    bool usable = ready && (given->referenced || !table->manual);
-    if (!axis->started) {
-        begin_switch(table, state, enable, usable, released);
-    } else if (axis->held) {
-        heed_command(table, state, enable, usable, released, given->no_move);
-    } else {
-        heed_command(table, state, enable, usable, released, given->no_move);
-        advance_switch(table, state, usable, axis->moving);
-    }
-}
-
 /* ================================== cross ===================================
  *
  * Cross compensation (kw.crosscomp): the slave is corrected by what stands at the master's raw setpoint. Added.
  */
 
-/* Return the correction at full weight; ``master`` is the master's raw setpoint. */
+/* Return the correction at full weight; `master` is the master's raw setpoint. */
 static double cross_value(const double *pool, const CrossTable *table, CrossState *state, double master)
 {
     return curve_value(pool, &table->curve, master, &state->lookup);
@@ -583,40 +494,6 @@ static double cross_value(const double *pool, const CrossTable *table, CrossStat
  * position_delay after a reversal (the start counts as one), w_before takes it down over the last reversal_lookahead
  * cycles before one: the cycle n cycles before the last one of the old direction has w_before = n/reversal_lookahead.
  */
-
-/* Return the current of this cycle at full weight, and keep the delay line. */
-static double friction_current(const double *pool, const FrictionTable *table, FrictionState *state, double position,
-        double velocity, double acceleration, double cycle_time, double modulo_range)
-{
-    int32_t sign = 0;
-    if (velocity > 0.0) {
-        sign = 1;
-    } else if (velocity < 0.0) {
-        sign = -1;
-    }
-    if (sign != 0 && sign != state->direction) {
-        if (table->delay >= table->lookahead) {
-            decay_delayed(table, state);
-        }
-        state->direction = sign;
-        state->reversal_position = position;
-        state->built_up = false;
-        state->since_reversal = 0;
-    }
-
-    double current = 0.0;
-    if (sign != 0) {
-        current = table->scaling * sign * curve_value(pool, &table->curve, fabs(velocity), &state->lookup);
-        current = current * build_up(table, state, position, modulo_range);
-        if (table->delay < table->lookahead) {
-            current = current * decay_predicted(table, velocity, acceleration, cycle_time);
-        }
-    }
-    if (state->since_reversal < table->lookahead) {
-        state->since_reversal += 1;
-    }
-    return delayed(table, state, current);
-}
 
 /* Return w_after = min(1, |s − s_reversal| / position_delay); once 1 it stays until the next reversal. */
 static double build_up(const FrictionTable *table, FrictionState *state, double position, double modulo_range)
@@ -654,7 +531,7 @@ static double decay_predicted(const FrictionTable *table, double velocity, doubl
     return whole(cycles) / table->lookahead;
 }
 
-/* Put a current into the delay line and return the one of ``delay`` cycles ago. */
+/* Put a current into the delay line and return the one of `delay` cycles ago. */
 static double delayed(const FrictionTable *table, FrictionState *state, double current)
 {
     state->line[state->head] = current;
@@ -664,6 +541,40 @@ static double delayed(const FrictionTable *table, FrictionState *state, double c
     }
     state->head = state->head < DELAY_LINE - 1 ? state->head + 1 : 0;
     return state->line[at];
+}
+
+/* Return the current of this cycle at full weight, and keep the delay line. */
+static double friction_current(const double *pool, const FrictionTable *table, FrictionState *state, double position,
+        double velocity, double acceleration, double cycle_time, double modulo_range)
+{
+    int32_t sign = 0;
+    if (velocity > 0.0) {
+        sign = 1;
+    } else if (velocity < 0.0) {
+        sign = -1;
+    }
+    if (sign != 0 && sign != state->direction) {
+        if (table->delay >= table->lookahead) {
+            decay_delayed(table, state);
+        }
+        state->direction = sign;
+        state->reversal_position = position;
+        state->built_up = false;
+        state->since_reversal = 0;
+    }
+
+    double current = 0.0;
+    if (sign != 0) {
+        current = table->scaling * sign * curve_value(pool, &table->curve, fabs(velocity), &state->lookup);
+        current = current * build_up(table, state, position, modulo_range);
+        if (table->delay < table->lookahead) {
+            current = current * decay_predicted(table, velocity, acceleration, cycle_time);
+        }
+    }
+    if (state->since_reversal < table->lookahead) {
+        state->since_reversal += 1;
+    }
+    return delayed(table, state, current);
 }
 
 /* ================================ leadscrew =================================
@@ -682,7 +593,7 @@ static void begin_leadscrew(const LeadscrewTable *table, LeadscrewState *state, 
     state->reversal_step = table->reversal_cycles;
 }
 
-/* Return −Δ at full weight; ``position``: the input of the compensation, whose changes give the direction. */
+/* Return −Δ at full weight; `position`: the input of the compensation, whose changes give the direction. */
 static double leadscrew_value(const double *pool, const LeadscrewTable *table, LeadscrewState *state, double position,
         double modulo_range)
 {
@@ -719,23 +630,6 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
  * Plane compensation (kw.crosscomp2): the slave is corrected over a grid of two masters, bilinear. Added.
  */
 
-/* Return the correction at full weight at the masters' raw setpoints; outside the grid the edge is held. */
-static double plane_value(const double *pool, const PlaneTable *table, double master1, double master2)
-{
-    double u = grid_coordinate(master1, table->start1, table->interval1, table->points1);
-    double v = grid_coordinate(master2, table->start2, table->interval2, table->points2);
-    int32_t i = grid_cell(u, table->points1);
-    int32_t j = grid_cell(v, table->points2);
-    int32_t right = table->points1 > 1 ? 1 : 0;
-    int32_t below = table->points2 > 1 ? table->points1 : 0;
-
-    int32_t at = table->values + j * table->points1 + i;
-    double s = u - i;
-    double near = pool[at] + s * (pool[at + right] - pool[at]);
-    double far = pool[at + below] + s * (pool[at + below + right] - pool[at + below]);
-    return near + (v - j) * (far - near);
-}
-
 /* Return the position in intervals from the start, clamped to the grid: 0 … points − 1. */
 static double grid_coordinate(double x, double start, double interval, int32_t points)
 {
@@ -753,6 +647,23 @@ static int32_t grid_cell(double u, int32_t points)
     return i < points - 1 || i == 0 ? i : points - 2;
 }
 
+/* Return the correction at full weight at the masters' raw setpoints; outside the grid the edge is held. */
+static double plane_value(const double *pool, const PlaneTable *table, double master1, double master2)
+{
+    double u = grid_coordinate(master1, table->start1, table->interval1, table->points1);
+    double v = grid_coordinate(master2, table->start2, table->interval2, table->points2);
+    int32_t i = grid_cell(u, table->points1);
+    int32_t j = grid_cell(v, table->points2);
+    int32_t right = table->points1 > 1 ? 1 : 0;
+    int32_t below = table->points2 > 1 ? table->points1 : 0;
+
+    int32_t at = table->values + j * table->points1 + i;
+    double s = u - i;
+    double near = pool[at] + s * (pool[at + right] - pool[at]);
+    double far = pool[at + below] + s * (pool[at + below + right] - pool[at + below]);
+    return near + (v - j) * (far - near);
+}
+
 /* ================================== shift ===================================
  *
  * NO_MOVE: what a compensation gains or loses when it is switched stays in the setpoint as a shift.
@@ -761,7 +672,7 @@ static int32_t grid_cell(double u, int32_t points)
  * absorbed while a release is under way waits for the next one.
  */
 
-/* Take the shift back over ``shift_cycles`` cycles, from the first motion on. */
+/* Take the shift back over `shift_cycles` cycles, from the first motion on. */
 static void release_shift(const AxisTable *table, ShiftState *shift, bool moving)
 {
     if (moving && shift->step == 0 && (shift->waiting_before_leadscrew != 0.0 || shift->waiting_leadscrew != 0.0)) {
@@ -801,35 +712,28 @@ static void absorb_leadscrew(ShiftState *shift, double gain)
  * at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held.
  */
 
-/* Put the errors at a position (mm, °) into ``errors``, which is 0 before. */
-static void errors_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
-        double errors[ERRORS])
+/* Return i with knot[i] ≤ x < knot[i + 1] along argument d; the last knot belongs to the last cell.
+ *
+ * Equal steps along the argument know the last knot before them, so only a few knots are left to bisect.
+ */
+static int32_t find_cell(const double *pool, const ErrorBlock *block, int32_t d, double x)
 {
-    for (int32_t k = 0; k < table->constants; k++) {
-        errors[(int32_t)pool[table->constant + k]] = pool[table->constant + table->constants + k];
-    }
-    double x[LETTERS] = {0};
-    for (int32_t b = 0; b < table->blocks; b++) {
-        const ErrorBlock *block = &table->block[b];
-        for (int32_t d = 0; d < block->arguments; d++) {
-            x[d] = position[block->argument[d]];
-            if (block->folded[d]) {
-                x[d] = fold(x[d], 0.0, FULL_TURN);
-            }
-        }
-        if (block->interpolation == INTERPOLATE_GRID && block->arguments == 1 && block->points[0] > 1) {
-            add_from_line(pool, block, x[0], errors);
-        } else if (block->interpolation == INTERPOLATE_GRID) {
-            add_from_grid(pool, block, x, errors);
-        } else if (block->interpolation == INTERPOLATE_SCATTER) {
-            add_from_scatter(pool, block, x, errors);
+    int32_t first = block->knots[d];
+    int32_t step = block->steps[d] + (int32_t)((x - pool[first]) * block->steps_per_unit[d]);
+    int32_t low = (int32_t)pool[step];
+    int32_t high = int_min((int32_t)pool[step + 1] + 1, block->points[d] - 1);
+    while (high - low > 1) {
+        int32_t middle = (low + high) >> 1;
+        if (x < pool[first + middle]) {
+            high = middle;
         } else {
-            add_from_path(pool, block, x, errors);
+            low = middle;
         }
     }
+    return low;
 }
 
-/* Add what ``add_from_grid`` adds, for one argument: most tables have no more. */
+/* Add what `add_from_grid` adds, for one argument: most tables have no more. */
 static void add_from_line(const double *pool, const ErrorBlock *block, double x, double errors[ERRORS])
 {
     int32_t first = block->knots[0];
@@ -840,6 +744,14 @@ static void add_from_line(const double *pool, const ErrorBlock *block, double x,
     int32_t far = near + block->errors;
     for (int32_t p = 0; p < block->errors; p++) {
         errors[(int32_t)pool[block->error + p]] += (1.0 - share) * pool[near + p] + share * pool[far + p];
+    }
+}
+
+/* Add the weighted values of the node whose values begin at `at`. */
+static void add_node(const double *pool, const ErrorBlock *block, int32_t at, double weight, double errors[ERRORS])
+{
+    for (int32_t p = 0; p < block->errors; p++) {
+        errors[(int32_t)pool[block->error + p]] += weight * pool[at + p];
     }
 }
 
@@ -880,33 +792,15 @@ static void add_from_grid(const double *pool, const ErrorBlock *block, const dou
     }
 }
 
-/* Return i with knot[i] ≤ x < knot[i + 1] along argument d; the last knot belongs to the last cell.
- *
- * Equal steps along the argument know the last knot before them, so only a few knots are left to bisect.
- */
-static int32_t find_cell(const double *pool, const ErrorBlock *block, int32_t d, double x)
+/* Return the squared distance of a position from node n. */
+static double square_distance(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS])
 {
-    int32_t first = block->knots[d];
-    int32_t step = block->steps[d] + (int32_t)((x - pool[first]) * block->steps_per_unit[d]);
-    int32_t low = (int32_t)pool[step];
-    int32_t high = int_min((int32_t)pool[step + 1] + 1, block->points[d] - 1);
-    while (high - low > 1) {
-        int32_t middle = (low + high) >> 1;
-        if (x < pool[first + middle]) {
-            high = middle;
-        } else {
-            low = middle;
-        }
+    double square = 0.0;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        double difference = x[d] - pool[block->knots[0] + n * block->arguments + d];
+        square += difference * difference;
     }
-    return low;
-}
-
-/* Add the weighted values of the node whose values begin at ``at``. */
-static void add_node(const double *pool, const ErrorBlock *block, int32_t at, double weight, double errors[ERRORS])
-{
-    for (int32_t p = 0; p < block->errors; p++) {
-        errors[(int32_t)pool[block->error + p]] += weight * pool[at + p];
-    }
+    return square;
 }
 
 /* Add the mean of all nodes, weighted by 1/distance²; at a node its own values. */
@@ -926,17 +820,6 @@ static void add_from_scatter(const double *pool, const ErrorBlock *block, const 
         double weight = 1.0 / square_distance(pool, block, n, x) / total;
         add_node(pool, block, block->values + n * block->errors, weight, errors);
     }
-}
-
-/* Return the squared distance of a position from node n. */
-static double square_distance(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS])
-{
-    double square = 0.0;
-    for (int32_t d = 0; d < block->arguments; d++) {
-        double difference = x[d] - pool[block->knots[0] + n * block->arguments + d];
-        square += difference * difference;
-    }
-    return square;
 }
 
 /* Add the values at the point of the polyline that is nearest; of two as near the first one. */
@@ -976,6 +859,34 @@ static void add_from_path(const double *pool, const ErrorBlock *block, const dou
     }
 }
 
+/* Put the errors at a position (mm, °) into `errors`, which is 0 before. */
+static void errors_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
+        double errors[ERRORS])
+{
+    for (int32_t k = 0; k < table->constants; k++) {
+        errors[(int32_t)pool[table->constant + k]] = pool[table->constant + table->constants + k];
+    }
+    double x[LETTERS] = {0};
+    for (int32_t b = 0; b < table->blocks; b++) {
+        const ErrorBlock *block = &table->block[b];
+        for (int32_t d = 0; d < block->arguments; d++) {
+            x[d] = position[block->argument[d]];
+            if (block->folded[d]) {
+                x[d] = fold(x[d], 0.0, FULL_TURN);
+            }
+        }
+        if (block->interpolation == INTERPOLATE_GRID && block->arguments == 1 && block->points[0] > 1) {
+            add_from_line(pool, block, x[0], errors);
+        } else if (block->interpolation == INTERPOLATE_GRID) {
+            add_from_grid(pool, block, x, errors);
+        } else if (block->interpolation == INTERPOLATE_SCATTER) {
+            add_from_scatter(pool, block, x, errors);
+        } else {
+            add_from_path(pool, block, x, errors);
+        }
+    }
+}
+
 /* ============================= volumetric_model =============================
  *
  * The kinematic model of a machine with errors, and its inversion (semantics §10).
@@ -992,43 +903,204 @@ static void add_from_path(const double *pool, const ErrorBlock *block, const dou
  * columns carries W and J from the tool to the workpiece. Matrices are row by row.
  */
 
-/* Put Δ with W(q + Δ) = nominal W(q) into ``correction``; False: X, Y and Z are dependent here.
- *
- * Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
- * position is singular.
- */
-static bool correction_at(const VolumetricTable *table, const double position[LETTERS], double tool_length,
-        const double errors[ERRORS], double correction[LINEAR])
+/* Map the first columns of a frame by x ↦ M·x + o; if `side` is negative by x ↦ M·(x − o). */
+static void apply(const double m[9], const double o[3], double side, int32_t columns, double frame[FRAME])
 {
-    double nominal[FRAME] = {0};
-    double actual[FRAME] = {0};
-    carry_to_workpiece(table, position, tool_length, errors, nominal, actual);
-    if (fabs(volume(nominal)) < SINGULAR || fabs(volume(actual)) < SINGULAR) {
-        return false;
-    }
-    double inverse[9] = {0};
-    invert(actual, inverse);
-    double residual[LINEAR] = {0};
-    double change[LINEAR] = {0};  /* of the linear axes in the order of the columns of J */
-    for (int32_t _ = 0; _ < ITERATIONS; _++) {
-        double largest = 0.0;
+    if (side < 0.0) {
         for (int32_t d = 0; d < LINEAR; d++) {
-            residual[d] = actual[d] - nominal[d]
-                    + (actual[3 + d] * change[0] + actual[6 + d] * change[1] + actual[9 + d] * change[2]);
-            largest = double_max(largest, fabs(residual[d]));
-        }
-        if (largest < RESIDUAL) {
-            for (int32_t d = 0; d < LINEAR; d++) {
-                correction[d] = change[table->column[d]];
-            }
-            return true;
-        }
-        turn(inverse, residual);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            change[d] -= residual[d];
+            frame[d] -= o[d];
         }
     }
-    return false;
+    double xx = m[0];
+    double xy = m[1];
+    double xz = m[2];
+    double yx = m[3];
+    double yy = m[4];
+    double yz = m[5];
+    double zx = m[6];
+    double zy = m[7];
+    double zz = m[8];
+    for (int32_t k = 0; k < columns; k++) {
+        int32_t at = 3 * k;
+        double x = frame[at];
+        double y = frame[at + 1];
+        double z = frame[at + 2];
+        frame[at] = xx * x + xy * y + xz * z;
+        frame[at + 1] = yx * x + yy * y + yz * z;
+        frame[at + 2] = zx * x + zy * y + zz * z;
+    }
+    if (side > 0.0) {
+        for (int32_t d = 0; d < LINEAR; d++) {
+            frame[d] += o[d];
+        }
+    }
+}
+
+/* Put Rz(c)·Ry(b)·Rx(a) into `m`, angles in rad. */
+static void rotation(double a, double b, double c, double m[9])
+{
+    if (a == 0.0 && b == 0.0 && c == 0.0) {
+        for (int32_t i = 0; i < 9; i++) {
+            m[i] = 0.0;
+        }
+        for (int32_t i = 0; i < LINEAR; i++) {
+            m[4 * i] = 1.0;
+        }
+        return;
+    }
+    double sa = sine(a);
+    double ca = cosine(a);
+    double sb = sine(b);
+    double cb = cosine(b);
+    double sc = sine(c);
+    double cc = cosine(c);
+    m[0] = cb * cc;
+    m[1] = sa * sb * cc - ca * sc;
+    m[2] = ca * sb * cc + sa * sc;
+    m[3] = cb * sc;
+    m[4] = sa * sb * sc + ca * cc;
+    m[5] = ca * sb * sc - sa * cc;
+    m[6] = -sb;
+    m[7] = sa * cb;
+    m[8] = ca * cb;
+}
+
+/* Multiply a vector by a matrix. */
+static void turn(const double m[9], double v[3])
+{
+    double x = v[0];
+    double y = v[1];
+    double z = v[2];
+    v[0] = m[0] * x + m[1] * y + m[2] * z;
+    v[1] = m[3] * x + m[4] * y + m[5] * z;
+    v[2] = m[6] * x + m[7] * y + m[8] * z;
+}
+
+/* Put the map of X, Y or Z into `m` and `o`; `along`, the nominal direction, becomes the actual one.
+ *
+ * At the workpiece `q` and `along` both have the opposite sign.
+ */
+static void linear_axis(int32_t letter, double q, const double errors[ERRORS], double m[9], double o[3],
+        double along[3])
+{
+    int32_t e = ERRORS_OF_AXIS * letter;
+    if (errors[e + 3] != 0.0 || errors[e + 4] != 0.0 || errors[e + 5] != 0.0) {
+        rotation(errors[e + 3], errors[e + 4], errors[e + 5], m);
+        turn(m, along);
+    }
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d]);
+    }
+    rotation(errors[e + 9], errors[e + 10], errors[e + 11], m);
+}
+
+/* Let a map about the origin act about the centre of A, B or C. */
+static void about_center(const VolumetricTable *table, int32_t letter, const double m[9], double o[3])
+{
+    double center[3] = {0};
+    for (int32_t d = 0; d < LINEAR; d++) {
+        center[d] = table->center[3 * (letter - LINEAR) + d];
+        o[d] += center[d];
+    }
+    turn(m, center);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] -= center[d];
+    }
+}
+
+/* Put the rotation by `q` in ° about the unit vector `e` into `m`. */
+static void rotation_about(const double e[3], double q, double m[9])
+{
+    double angle = fold(q, 0.0, 360.0) * DEGREE;
+    double s = sine(angle);
+    double c = cosine(angle);
+    for (int32_t i = 0; i < LINEAR; i++) {
+        for (int32_t j = 0; j < LINEAR; j++) {
+            m[3 * i + j] = (1.0 - c) * e[i] * e[j];
+        }
+        m[4 * i] += c;
+    }
+    m[1] -= s * e[2];
+    m[2] += s * e[1];
+    m[3] += s * e[2];
+    m[5] -= s * e[0];
+    m[6] -= s * e[1];
+    m[7] += s * e[0];
+}
+
+/* Put the map of A, B or C without errors into `m` and `o`; `q` in °. */
+static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3])
+{
+    double axis[3] = {0};
+    for (int32_t d = 0; d < LINEAR; d++) {
+        axis[d] = table->direction[3 * letter + d];
+        o[d] = 0.0;
+    }
+    rotation_about(axis, q, m);
+    about_center(table, letter, m, o);
+}
+
+/* Replace `m` by a·m. */
+static void multiply_from_left(const double a[9], double m[9])
+{
+    for (int32_t j = 0; j < LINEAR; j++) {
+        double x = m[j];
+        double y = m[3 + j];
+        double z = m[6 + j];
+        for (int32_t i = 0; i < LINEAR; i++) {
+            m[3 * i + j] = a[3 * i] * x + a[3 * i + 1] * y + a[3 * i + 2] * z;
+        }
+    }
+}
+
+/* Put the map of A, B or C into `m` and `o`; `q` in °. */
+static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, const double errors[ERRORS],
+        double m[9], double o[3])
+{
+    int32_t e = ERRORS_OF_AXIS * letter;
+    double axis[3] = {0};
+    for (int32_t d = 0; d < LINEAR; d++) {
+        axis[d] = table->direction[3 * letter + d];
+    }
+    double tilt[9] = {0};
+    if (table->alternative) {
+        /* L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …). */
+        rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt);
+        turn(tilt, axis);
+        rotation_about(axis, q, m);
+        for (int32_t d = 0; d < LINEAR; d++) {
+            o[d] = -errors[e + d];
+        }
+        turn(m, o);
+        for (int32_t d = 0; d < LINEAR; d++) {
+            o[d] += errors[e + d];
+        }
+        rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt);
+        turn(tilt, o);
+        for (int32_t d = 0; d < LINEAR; d++) {
+            o[d] += errors[e + 6 + d];
+        }
+    } else {
+        rotation_about(axis, q, m);
+        rotation(errors[e + 3] + errors[e + 9], errors[e + 4] + errors[e + 10], errors[e + 5] + errors[e + 11], tilt);
+        for (int32_t d = 0; d < LINEAR; d++) {
+            o[d] = errors[e + d] + errors[e + 6 + d];
+        }
+    }
+    multiply_from_left(tilt, m);
+    about_center(table, letter, m, o);
+}
+
+/* Replace a rotation by its inverse. */
+static void transpose(double m[9])
+{
+    for (int32_t i = 0; i < LINEAR; i++) {
+        for (int32_t j = 0; j < i; j++) {
+            double upper = m[3 * j + i];
+            m[3 * j + i] = m[3 * i + j];
+            m[3 * i + j] = upper;
+        }
+    }
 }
 
 /* Put W and J at a position into the frames, which are 0 before: without and with errors. */
@@ -1092,206 +1164,6 @@ static void carry_to_workpiece(const VolumetricTable *table, const double positi
     }
 }
 
-/* Map the first columns of a frame by x ↦ M·x + o; if ``side`` is negative by x ↦ M·(x − o). */
-static void apply(const double m[9], const double o[3], double side, int32_t columns, double frame[FRAME])
-{
-    if (side < 0.0) {
-        for (int32_t d = 0; d < LINEAR; d++) {
-            frame[d] -= o[d];
-        }
-    }
-    double xx = m[0];
-    double xy = m[1];
-    double xz = m[2];
-    double yx = m[3];
-    double yy = m[4];
-    double yz = m[5];
-    double zx = m[6];
-    double zy = m[7];
-    double zz = m[8];
-    for (int32_t k = 0; k < columns; k++) {
-        int32_t at = 3 * k;
-        double x = frame[at];
-        double y = frame[at + 1];
-        double z = frame[at + 2];
-        frame[at] = xx * x + xy * y + xz * z;
-        frame[at + 1] = yx * x + yy * y + yz * z;
-        frame[at + 2] = zx * x + zy * y + zz * z;
-    }
-    if (side > 0.0) {
-        for (int32_t d = 0; d < LINEAR; d++) {
-            frame[d] += o[d];
-        }
-    }
-}
-
-/* Put the map of X, Y or Z into ``m`` and ``o``; ``along``, the nominal direction, becomes the actual one.
- *
- * At the workpiece ``q`` and ``along`` both have the opposite sign.
- */
-static void linear_axis(int32_t letter, double q, const double errors[ERRORS], double m[9], double o[3],
-        double along[3])
-{
-    int32_t e = ERRORS_OF_AXIS * letter;
-    if (errors[e + 3] != 0.0 || errors[e + 4] != 0.0 || errors[e + 5] != 0.0) {
-        rotation(errors[e + 3], errors[e + 4], errors[e + 5], m);
-        turn(m, along);
-    }
-    for (int32_t d = 0; d < LINEAR; d++) {
-        o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d]);
-    }
-    rotation(errors[e + 9], errors[e + 10], errors[e + 11], m);
-}
-
-/* Put the map of A, B or C without errors into ``m`` and ``o``; ``q`` in °. */
-static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3])
-{
-    double axis[3] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        axis[d] = table->direction[3 * letter + d];
-        o[d] = 0.0;
-    }
-    rotation_about(axis, q, m);
-    about_center(table, letter, m, o);
-}
-
-/* Put the map of A, B or C into ``m`` and ``o``; ``q`` in °. */
-static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, const double errors[ERRORS],
-        double m[9], double o[3])
-{
-    int32_t e = ERRORS_OF_AXIS * letter;
-    double axis[3] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        axis[d] = table->direction[3 * letter + d];
-    }
-    double tilt[9] = {0};
-    if (table->alternative) {
-        /* L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …). */
-        rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt);
-        turn(tilt, axis);
-        rotation_about(axis, q, m);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = -errors[e + d];
-        }
-        turn(m, o);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + d];
-        }
-        rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt);
-        turn(tilt, o);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + 6 + d];
-        }
-    } else {
-        rotation_about(axis, q, m);
-        rotation(errors[e + 3] + errors[e + 9], errors[e + 4] + errors[e + 10], errors[e + 5] + errors[e + 11], tilt);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = errors[e + d] + errors[e + 6 + d];
-        }
-    }
-    multiply_from_left(tilt, m);
-    about_center(table, letter, m, o);
-}
-
-/* Let a map about the origin act about the centre of A, B or C. */
-static void about_center(const VolumetricTable *table, int32_t letter, const double m[9], double o[3])
-{
-    double center[3] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        center[d] = table->center[3 * (letter - LINEAR) + d];
-        o[d] += center[d];
-    }
-    turn(m, center);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        o[d] -= center[d];
-    }
-}
-
-/* Put Rz(c)·Ry(b)·Rx(a) into ``m``, angles in rad. */
-static void rotation(double a, double b, double c, double m[9])
-{
-    if (a == 0.0 && b == 0.0 && c == 0.0) {
-        for (int32_t i = 0; i < 9; i++) {
-            m[i] = 0.0;
-        }
-        for (int32_t i = 0; i < LINEAR; i++) {
-            m[4 * i] = 1.0;
-        }
-        return;
-    }
-    double sa = sine(a);
-    double ca = cosine(a);
-    double sb = sine(b);
-    double cb = cosine(b);
-    double sc = sine(c);
-    double cc = cosine(c);
-    m[0] = cb * cc;
-    m[1] = sa * sb * cc - ca * sc;
-    m[2] = ca * sb * cc + sa * sc;
-    m[3] = cb * sc;
-    m[4] = sa * sb * sc + ca * cc;
-    m[5] = ca * sb * sc - sa * cc;
-    m[6] = -sb;
-    m[7] = sa * cb;
-    m[8] = ca * cb;
-}
-
-/* Put the rotation by ``q`` in ° about the unit vector ``e`` into ``m``. */
-static void rotation_about(const double e[3], double q, double m[9])
-{
-    double angle = fold(q, 0.0, 360.0) * DEGREE;
-    double s = sine(angle);
-    double c = cosine(angle);
-    for (int32_t i = 0; i < LINEAR; i++) {
-        for (int32_t j = 0; j < LINEAR; j++) {
-            m[3 * i + j] = (1.0 - c) * e[i] * e[j];
-        }
-        m[4 * i] += c;
-    }
-    m[1] -= s * e[2];
-    m[2] += s * e[1];
-    m[3] += s * e[2];
-    m[5] -= s * e[0];
-    m[6] -= s * e[1];
-    m[7] += s * e[0];
-}
-
-/* Multiply a vector by a matrix. */
-static void turn(const double m[9], double v[3])
-{
-    double x = v[0];
-    double y = v[1];
-    double z = v[2];
-    v[0] = m[0] * x + m[1] * y + m[2] * z;
-    v[1] = m[3] * x + m[4] * y + m[5] * z;
-    v[2] = m[6] * x + m[7] * y + m[8] * z;
-}
-
-/* Replace a rotation by its inverse. */
-static void transpose(double m[9])
-{
-    for (int32_t i = 0; i < LINEAR; i++) {
-        for (int32_t j = 0; j < i; j++) {
-            double upper = m[3 * j + i];
-            m[3 * j + i] = m[3 * i + j];
-            m[3 * i + j] = upper;
-        }
-    }
-}
-
-/* Replace ``m`` by a·m. */
-static void multiply_from_left(const double a[9], double m[9])
-{
-    for (int32_t j = 0; j < LINEAR; j++) {
-        double x = m[j];
-        double y = m[3 + j];
-        double z = m[6 + j];
-        for (int32_t i = 0; i < LINEAR; i++) {
-            m[3 * i + j] = a[3 * i] * x + a[3 * i + 1] * y + a[3 * i + 2] * z;
-        }
-    }
-}
-
 /* Return the determinant of J. */
 static double volume(const double frame[FRAME])
 {
@@ -1300,7 +1172,7 @@ static double volume(const double frame[FRAME])
             + frame[5] * (frame[6] * frame[10] - frame[7] * frame[9]);
 }
 
-/* Put the inverse of J into ``inverse``; J is not singular. */
+/* Put the inverse of J into `inverse`; J is not singular. */
 static void invert(const double frame[FRAME], double inverse[9])
 {
     double determinant = volume(frame);
@@ -1313,11 +1185,50 @@ static void invert(const double frame[FRAME], double inverse[9])
     }
 }
 
+/* Put Δ with W(q + Δ) = nominal W(q) into `correction`; false: X, Y and Z are dependent here.
+ *
+ * Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
+ * position is singular.
+ */
+static bool correction_at(const VolumetricTable *table, const double position[LETTERS], double tool_length,
+        const double errors[ERRORS], double correction[LINEAR])
+{
+    double nominal[FRAME] = {0};
+    double actual[FRAME] = {0};
+    carry_to_workpiece(table, position, tool_length, errors, nominal, actual);
+    if (fabs(volume(nominal)) < SINGULAR || fabs(volume(actual)) < SINGULAR) {
+        return false;
+    }
+    double inverse[9] = {0};
+    invert(actual, inverse);
+    double residual[LINEAR] = {0};
+    double change[LINEAR] = {0};  /* of the linear axes in the order of the columns of J */
+    for (int32_t i = 0; i < ITERATIONS; i++) {
+        double largest = 0.0;
+        for (int32_t d = 0; d < LINEAR; d++) {
+            residual[d] = actual[d] - nominal[d]
+                    + (actual[3 + d] * change[0] + actual[6 + d] * change[1] + actual[9 + d] * change[2]);
+            largest = double_max(largest, fabs(residual[d]));
+        }
+        if (largest < RESIDUAL) {
+            for (int32_t d = 0; d < LINEAR; d++) {
+                correction[d] = change[table->column[d]];
+            }
+            return true;
+        }
+        turn(inverse, residual);
+        for (int32_t d = 0; d < LINEAR; d++) {
+            change[d] -= residual[d];
+        }
+    }
+    return false;
+}
+
 /* =========================== volumetric_switching ===========================
  *
  * Switching the volumetric compensations: what is on, with which weight, and what is absorbed without motion.
  *
- * A switch takes ``filter_steps`` cycles along 10u³ − 15u⁴ + 6u⁵; a change of mind midway turns round where it is. Where
+ * A switch takes `filter_steps` cycles along 10u³ − 15u⁴ + 6u⁵; a change of mind midway turns round where it is. Where
  * an axis must not move, what its correction loses or gains becomes a shift that stays until the next switch (semantics
  * §10).
  */
@@ -1330,6 +1241,152 @@ static double smooth(int32_t step, int32_t cycles)
     }
     double u = (double)step / cycles;
     return u * u * u * (10.0 + u * (6.0 * u - 15.0));
+}
+
+/* Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0. */
+static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter)
+{
+    double factor = given->factor_x;
+    if (letter == 1) {
+        factor = given->factor_y;
+    } else if (letter == LINEAR - 1) {
+        factor = given->factor_z;
+    }
+    if (factor >= 0.0) {
+        return table->sign[letter] * double_min(factor, 1.0);
+    }
+    return 0.0;
+}
+
+/* Keep a command until it can be obeyed, and what came with it. */
+static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
+        bool command)
+{
+    volumetric->command = command;
+    volumetric->no_move = given->no_move;
+    for (int32_t d = 0; d < LINEAR; d++) {
+        volumetric->wanted_factor[d] = signed_factor(table, given, d);
+    }
+}
+
+/* Let the correction of X, Y or Z end without motion; it comes back when the compensation is switched on again. */
+static void drop_axis(VolumetricState *volumetric, int32_t letter)
+{
+    if (volumetric->taking_part[letter]) {
+        volumetric->taking_part[letter] = false;
+        volumetric->absorbed[letter] = true;
+    }
+}
+
+/* Take out the axes that are in error or have lost their reference; true: there are none. */
+static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs)
+{
+    bool ready = true;
+    for (int32_t m = 0; m < table->members; m++) {
+        const AxisInputs *given = &inputs->axis[table->member[m]];
+        if (given->fault || !given->referenced) {
+            ready = false;
+            if (given->fault && volumetric->on) {
+                volumetric->command = false;
+            }
+            if (table->member_letter[m] < LINEAR) {
+                drop_axis(volumetric, table->member_letter[m]);
+            }
+        }
+    }
+    return ready;
+}
+
+/* Switch off at once; the corrections become shifts. */
+static void stop_without_motion(VolumetricState *volumetric)
+{
+    volumetric->on = false;
+    volumetric->step = 0;
+    volumetric->weight = 0.0;
+    for (int32_t d = 0; d < LINEAR; d++) {
+        volumetric->absorbed[d] = true;
+    }
+}
+
+/* Begin to take back the shifts of the axes that may move, along with this switch. */
+static void release_shifts(const VolumetricTable *table, VolumetricState *volumetric)
+{
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!volumetric->absorbed[d]) {
+            volumetric->held_shift[d] = volumetric->shift[d];
+            volumetric->release_step[d] = table->cycles;
+        }
+    }
+}
+
+/* Switch on, provided that every limit is defined. */
+static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, State *state)
+{
+    for (int32_t m = 0; m < table->members; m++) {
+        if (table->member_letter[m] < LINEAR && table->member_limit[m] <= 0.0) {
+            volumetric->command = false;
+            state->axis[table->member[m]].error = ERROR_LIMIT_UNDEFINED;
+        }
+    }
+    if (!volumetric->command) {
+        return;
+    }
+    volumetric->on = true;
+    for (int32_t d = 0; d < LINEAR; d++) {
+        volumetric->taking_part[d] = true;
+        volumetric->factor[d] = volumetric->wanted_factor[d];
+    }
+    for (int32_t m = 0; m < table->members; m++) {
+        state->axis[table->member[m]].stop_request = false;
+    }
+    if (!volumetric->started) {
+        volumetric->step = table->cycles;
+    } else if (volumetric->no_move) {
+        volumetric->step = table->cycles;
+        for (int32_t d = 0; d < LINEAR; d++) {
+            volumetric->absorbed[d] = true;
+        }
+    } else {
+        release_shifts(table, volumetric);
+    }
+}
+
+/* Tell whether a compensation that is running down can go up again; else it has to be down before. */
+static bool can_turn_round(const VolumetricState *volumetric)
+{
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!volumetric->taking_part[d] || volumetric->factor[d] != volumetric->wanted_factor[d]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Advance weight and shifts by one cycle. */
+static void advance_weight(const VolumetricTable *table, VolumetricState *volumetric)
+{
+    if (volumetric->on) {
+        if (volumetric->step < table->cycles) {
+            volumetric->step += 1;
+        }
+    } else if (volumetric->step > 0) {
+        volumetric->step -= 1;
+    }
+    volumetric->weight = smooth(volumetric->step, table->cycles);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (volumetric->release_step[d] > 0) {
+            volumetric->release_step[d] -= 1;
+            volumetric->shift[d] = volumetric->held_shift[d] * smooth(volumetric->release_step[d], table->cycles);
+        }
+    }
+}
+
+/* Report an error at X, Y and Z. */
+static void set_error(const VolumetricTable *table, State *state, int32_t error)
+{
+    for (int32_t d = 0; d < LINEAR; d++) {
+        state->axis[table->axis[d]].error = error;
+    }
 }
 
 /* Follow commands and conditions and advance the weight by one cycle; what is on in the first has full weight. */
@@ -1370,17 +1427,6 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
     volumetric->started = true;
 }
 
-/* Keep a command until it can be obeyed, and what came with it. */
-static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
-        bool command)
-{
-    volumetric->command = command;
-    volumetric->no_move = given->no_move;
-    for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->wanted_factor[d] = signed_factor(table, given, d);
-    }
-}
-
 /* Switch off without motion for an update; a manual compensation needs a new command. */
 static void adopt_volumetric(const VolumetricTable *before, const VolumetricTable *after, VolumetricState *volumetric)
 {
@@ -1398,141 +1444,6 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
     }
 }
 
-/* Take out the axes that are in error or have lost their reference; True: there are none. */
-static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs)
-{
-    bool ready = true;
-    for (int32_t m = 0; m < table->members; m++) {
-        const AxisInputs *given = &inputs->axis[table->member[m]];
-        if (given->fault || !given->referenced) {
-            ready = false;
-            if (given->fault && volumetric->on) {
-                volumetric->command = false;
-            }
-            if (table->member_letter[m] < LINEAR) {
-                drop_axis(volumetric, table->member_letter[m]);
-            }
-        }
-    }
-    return ready;
-}
-
-/* Let the correction of X, Y or Z end without motion; it comes back when the compensation is switched on again. */
-static void drop_axis(VolumetricState *volumetric, int32_t letter)
-{
-    if (volumetric->taking_part[letter]) {
-        volumetric->taking_part[letter] = false;
-        volumetric->absorbed[letter] = true;
-    }
-}
-
-/* Switch off at once; the corrections become shifts. */
-static void stop_without_motion(VolumetricState *volumetric)
-{
-    volumetric->on = false;
-    volumetric->step = 0;
-    volumetric->weight = 0.0;
-    for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->absorbed[d] = true;
-    }
-}
-
-/* Switch on, provided that every limit is defined. */
-static void switch_on(const VolumetricTable *table, VolumetricState *volumetric, State *state)
-{
-    for (int32_t m = 0; m < table->members; m++) {
-        if (table->member_letter[m] < LINEAR && table->member_limit[m] <= 0.0) {
-            volumetric->command = false;
-            state->axis[table->member[m]].error = ERROR_LIMIT_UNDEFINED;
-        }
-    }
-    if (!volumetric->command) {
-        return;
-    }
-    volumetric->on = true;
-    for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->taking_part[d] = true;
-        volumetric->factor[d] = volumetric->wanted_factor[d];
-    }
-    for (int32_t m = 0; m < table->members; m++) {
-        state->axis[table->member[m]].stop_request = false;
-    }
-    if (!volumetric->started) {
-        volumetric->step = table->cycles;
-    } else if (volumetric->no_move) {
-        volumetric->step = table->cycles;
-        for (int32_t d = 0; d < LINEAR; d++) {
-            volumetric->absorbed[d] = true;
-        }
-    } else {
-        release_shifts(table, volumetric);
-    }
-}
-
-/* Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0. */
-static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter)
-{
-    double factor = given->factor_x;
-    if (letter == 1) {
-        factor = given->factor_y;
-    } else if (letter == LINEAR - 1) {
-        factor = given->factor_z;
-    }
-    if (factor >= 0.0) {
-        return table->sign[letter] * double_min(factor, 1.0);
-    }
-    return 0.0;
-}
-
-/* Tell whether a compensation that is running down can go up again; else it has to be down before. */
-static bool can_turn_round(const VolumetricState *volumetric)
-{
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (!volumetric->taking_part[d] || volumetric->factor[d] != volumetric->wanted_factor[d]) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Begin to take back the shifts of the axes that may move, along with this switch. */
-static void release_shifts(const VolumetricTable *table, VolumetricState *volumetric)
-{
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (!volumetric->absorbed[d]) {
-            volumetric->held_shift[d] = volumetric->shift[d];
-            volumetric->release_step[d] = table->cycles;
-        }
-    }
-}
-
-/* Advance weight and shifts by one cycle. */
-static void advance_weight(const VolumetricTable *table, VolumetricState *volumetric)
-{
-    if (volumetric->on) {
-        if (volumetric->step < table->cycles) {
-            volumetric->step += 1;
-        }
-    } else if (volumetric->step > 0) {
-        volumetric->step -= 1;
-    }
-    volumetric->weight = smooth(volumetric->step, table->cycles);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (volumetric->release_step[d] > 0) {
-            volumetric->release_step[d] -= 1;
-            volumetric->shift[d] = volumetric->held_shift[d] * smooth(volumetric->release_step[d], table->cycles);
-        }
-    }
-}
-
-/* Report an error at X, Y and Z. */
-static void set_error(const VolumetricTable *table, State *state, int32_t error)
-{
-    for (int32_t d = 0; d < LINEAR; d++) {
-        state->axis[table->axis[d]].error = error;
-    }
-}
-
 /* ================================ volumetric ================================
  *
  * The volumetric compensations of one cycle, each from the raw setpoints of its axes (semantics §10).
@@ -1540,55 +1451,6 @@ static void set_error(const VolumetricTable *table, State *state, int32_t error)
  * Every correction stays below the limits of its axis and of the gantry slaves that follow it. Where one does not, its
  * last value becomes a shift, the axis is asked to stop, and the compensation switches off.
  */
-
-/* Put the sum of all volumetric corrections and shifts into the state of every axis. */
-static void compensate_volume(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs)
-{
-    for (int32_t i = 0; i < tables->axis_count; i++) {
-        state->axis[i].volumetric_correction = 0.0;
-        state->axis[i].volumetric_shift = 0.0;
-        if (inputs->reset) {
-            state->axis[i].stop_request = false;
-        }
-    }
-    if (-LARGEST_TOOL < inputs->tool_length && inputs->tool_length < LARGEST_TOOL) {
-        state->tool_length = inputs->tool_length;
-    }
-    for (int32_t k = 0; k < tables->volumetrics; k++) {
-        const VolumetricTable *table = &tables->volumetric[k];
-        if (table->configured) {
-            VolumetricState *volumetric = &state->volumetric[k];
-            switch_volumetric(table, volumetric, &inputs->volumetric[k], inputs, state);
-            if (volumetric->step > 0) {
-                compute_values(tables->pool, table, volumetric, state);
-            }
-            contribute(table, volumetric, state);
-            outputs->volumetric[k].active = volumetric->step > 0;
-        }
-    }
-}
-
-/* Compute the corrections at full weight; an error switches off. */
-static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state)
-{
-    double position[LETTERS] = {0};
-    for (int32_t letter = 0; letter < LETTERS; letter++) {
-        position[letter] = state->axis[table->axis[letter]].setpoint + table->offset[letter];
-    }
-    double errors[ERRORS] = {0};
-    errors_at(pool, table, position, errors);
-    double correction[LINEAR] = {0};
-    if (!correction_at(table, position, state->tool_length, errors, correction)) {
-        volumetric->command = false;
-        stop_without_motion(volumetric);
-        set_error(table, state, ERROR_SINGULAR);
-        return;
-    }
-    for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->value[d] = volumetric->factor[d] * correction[d];
-    }
-    check_limits(table, volumetric, state);
-}
 
 /* Drop the axes whose correction is too large, and let the others run down. */
 static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state)
@@ -1617,6 +1479,28 @@ static void check_limits(const VolumetricTable *table, VolumetricState *volumetr
     }
 }
 
+/* Compute the corrections at full weight; an error switches off. */
+static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state)
+{
+    double position[LETTERS] = {0};
+    for (int32_t letter = 0; letter < LETTERS; letter++) {
+        position[letter] = state->axis[table->axis[letter]].setpoint + table->offset[letter];
+    }
+    double errors[ERRORS] = {0};
+    errors_at(pool, table, position, errors);
+    double correction[LINEAR] = {0};
+    if (!correction_at(table, position, state->tool_length, errors, correction)) {
+        volumetric->command = false;
+        stop_without_motion(volumetric);
+        set_error(table, state, ERROR_SINGULAR);
+        return;
+    }
+    for (int32_t d = 0; d < LINEAR; d++) {
+        volumetric->value[d] = volumetric->factor[d] * correction[d];
+    }
+    check_limits(table, volumetric, state);
+}
+
 /* Add corrections and shifts to the axes; a change that must not move an axis goes into its shift. */
 static void contribute(const VolumetricTable *table, VolumetricState *volumetric, State *state)
 {
@@ -1641,6 +1525,33 @@ static void contribute(const VolumetricTable *table, VolumetricState *volumetric
     }
 }
 
+/* Put the sum of all volumetric corrections and shifts into the state of every axis. */
+static void compensate_volume(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs)
+{
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        state->axis[i].volumetric_correction = 0.0;
+        state->axis[i].volumetric_shift = 0.0;
+        if (inputs->reset) {
+            state->axis[i].stop_request = false;
+        }
+    }
+    if (-LARGEST_TOOL < inputs->tool_length && inputs->tool_length < LARGEST_TOOL) {
+        state->tool_length = inputs->tool_length;
+    }
+    for (int32_t k = 0; k < tables->volumetrics; k++) {
+        const VolumetricTable *table = &tables->volumetric[k];
+        if (table->configured) {
+            VolumetricState *volumetric = &state->volumetric[k];
+            switch_volumetric(table, volumetric, &inputs->volumetric[k], inputs, state);
+            if (volumetric->step > 0) {
+                compute_values(tables->pool, table, volumetric, state);
+            }
+            contribute(table, volumetric, state);
+            outputs->volumetric[k].active = volumetric->step > 0;
+        }
+    }
+}
+
 /* ================================== cycle ===================================
  *
  * One cycle of the whole engine (semantics §3).
@@ -1650,35 +1561,12 @@ static void contribute(const VolumetricTable *table, VolumetricState *volumetric
  * shift; the friction current from the setpoint velocity; the display position = measured position − (corrected − raw).
  */
 
-/* Run one cycle: the outputs belong to these inputs. */
-void axcomp_cycle(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs)
-{
-    for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(&state->axis[i], &inputs->axis[i]);
-    }
-    if (tables->volumetrics > 0) {
-        compensate_volume(tables, state, inputs, outputs);
-    }
-    for (int32_t i = 0; i < tables->axis_count; i++) {
-        AxisState *axis = &state->axis[i];
-        if (inputs->reset) {
-            axis->error = 0;
-        }
-        activate(&tables->axis[i], axis, inputs, &inputs->axis[i]);
-        if (axis->held) {
-            outputs->axis[i].error = ERROR_INPUT;
-        } else {
-            correct_axis(tables, state, inputs, &outputs->axis[i], i);
-            outputs->axis[i].error = axis->error;
-        }
-    }
-}
-
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
 static void accept(AxisState *axis, const AxisInputs *given)
 {
-    axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST && -LARGEST < given->velocity
-            && given->velocity < LARGEST && -LARGEST < given->acceleration && given->acceleration < LARGEST
+    axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
+            && -LARGEST < given->velocity && given->velocity < LARGEST
+            && -LARGEST < given->acceleration && given->acceleration < LARGEST
             && -LARGEST < given->actual_position && given->actual_position < LARGEST);
     if (!axis->held) {
         axis->moving = axis->started && (given->setpoint != axis->setpoint || given->velocity != 0.0);
@@ -1686,6 +1574,61 @@ static void accept(AxisState *axis, const AxisInputs *given)
         axis->velocity = given->velocity;
         axis->acceleration = given->acceleration;
     }
+}
+
+/* Cross compensation of the slave `axis`. */
+static void correct_by_cross(const double *pool, const AxisTable *table, AxisState *axis, const AxisState *master,
+        AxisOutputs *out)
+{
+    double value = cross_value(pool, &table->cross, &axis->cross, master->setpoint);
+    out->cross_correction = axis->cross.switching.weight * value;
+    out->cross_active = axis->cross.switching.step > 0;
+    absorb_before_leadscrew(&axis->shift, axis->cross.switching.absorbed * value);
+}
+
+/* Plane compensation of the slave `axis`. */
+static void correct_by_plane(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
+        AxisOutputs *out)
+{
+    double master1 = state->axis[table->plane.master1].setpoint;
+    double master2 = state->axis[table->plane.master2].setpoint;
+    double value = plane_value(pool, &table->plane, master1, master2);
+    out->plane_correction = axis->plane.switching.weight * value;
+    out->plane_active = axis->plane.switching.step > 0;
+    absorb_before_leadscrew(&axis->shift, axis->plane.switching.absorbed * value);
+}
+
+/* Crosstalk compensation of the slave `axis`. */
+static void correct_by_crosstalk(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
+        AxisOutputs *out)
+{
+    const AxisState *master = &state->axis[table->crosstalk.master];
+    double position1 = state->axis[table->crosstalk.adaptation1].setpoint;
+    double position2 = state->axis[table->crosstalk.adaptation2].setpoint;
+    double value = crosstalk_value(pool, &table->crosstalk, &axis->crosstalk, master->acceleration, master->velocity,
+            position1, position2);
+    out->crosstalk_correction = axis->crosstalk.switching.weight * value;
+    out->crosstalk_active = axis->crosstalk.switching.step > 0;
+    absorb_before_leadscrew(&axis->shift, axis->crosstalk.switching.absorbed * value);
+}
+
+/* Leadscrew error compensation at an input position. */
+static void correct_by_leadscrew(const double *pool, const AxisTable *table, AxisState *axis, double position,
+        AxisOutputs *out)
+{
+    double value = leadscrew_value(pool, &table->leadscrew, &axis->leadscrew, position, table->modulo_range);
+    out->leadscrew_correction = axis->leadscrew.switching.weight * value;
+    out->leadscrew_active = axis->leadscrew.switching.step > 0;
+    absorb_leadscrew(&axis->shift, axis->leadscrew.switching.absorbed * value);
+}
+
+/* Friction compensation. */
+static void add_friction_current(const Tables *tables, const AxisTable *table, AxisState *axis, AxisOutputs *out)
+{
+    double current = friction_current(table->pool, &table->friction, &axis->friction, axis->setpoint, axis->velocity,
+            axis->acceleration, tables->cycle_time, table->modulo_range);
+    out->current = axis->friction.switching.weight * current;
+    out->friction_active = axis->friction.switching.step > 0;
 }
 
 /* Correct one axis. */
@@ -1731,59 +1674,28 @@ static void correct_axis(const Tables *tables, State *state, const Inputs *input
     axis->started = true;
 }
 
-/* Cross compensation of the slave ``axis``. */
-static void correct_by_cross(const double *pool, const AxisTable *table, AxisState *axis, const AxisState *master,
-        AxisOutputs *out)
+/* Run one cycle: the outputs belong to these inputs. */
+void axcomp_cycle(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs)
 {
-    double value = cross_value(pool, &table->cross, &axis->cross, master->setpoint);
-    out->cross_correction = axis->cross.switching.weight * value;
-    out->cross_active = axis->cross.switching.step > 0;
-    absorb_before_leadscrew(&axis->shift, axis->cross.switching.absorbed * value);
-}
-
-/* Plane compensation of the slave ``axis``. */
-static void correct_by_plane(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
-        AxisOutputs *out)
-{
-    double master1 = state->axis[table->plane.master1].setpoint;
-    double master2 = state->axis[table->plane.master2].setpoint;
-    double value = plane_value(pool, &table->plane, master1, master2);
-    out->plane_correction = axis->plane.switching.weight * value;
-    out->plane_active = axis->plane.switching.step > 0;
-    absorb_before_leadscrew(&axis->shift, axis->plane.switching.absorbed * value);
-}
-
-/* Crosstalk compensation of the slave ``axis``. */
-static void correct_by_crosstalk(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
-        AxisOutputs *out)
-{
-    const AxisState *master = &state->axis[table->crosstalk.master];
-    double position1 = state->axis[table->crosstalk.adaptation1].setpoint;
-    double position2 = state->axis[table->crosstalk.adaptation2].setpoint;
-    double value = crosstalk_value(pool, &table->crosstalk, &axis->crosstalk, master->acceleration, master->velocity,
-            position1, position2);
-    out->crosstalk_correction = axis->crosstalk.switching.weight * value;
-    out->crosstalk_active = axis->crosstalk.switching.step > 0;
-    absorb_before_leadscrew(&axis->shift, axis->crosstalk.switching.absorbed * value);
-}
-
-/* Leadscrew error compensation at an input position. */
-static void correct_by_leadscrew(const double *pool, const AxisTable *table, AxisState *axis, double position,
-        AxisOutputs *out)
-{
-    double value = leadscrew_value(pool, &table->leadscrew, &axis->leadscrew, position, table->modulo_range);
-    out->leadscrew_correction = axis->leadscrew.switching.weight * value;
-    out->leadscrew_active = axis->leadscrew.switching.step > 0;
-    absorb_leadscrew(&axis->shift, axis->leadscrew.switching.absorbed * value);
-}
-
-/* Friction compensation. */
-static void add_friction_current(const Tables *tables, const AxisTable *table, AxisState *axis, AxisOutputs *out)
-{
-    double current = friction_current(table->pool, &table->friction, &axis->friction, axis->setpoint, axis->velocity,
-            axis->acceleration, tables->cycle_time, table->modulo_range);
-    out->current = axis->friction.switching.weight * current;
-    out->friction_active = axis->friction.switching.step > 0;
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        accept(&state->axis[i], &inputs->axis[i]);
+    }
+    if (tables->volumetrics > 0) {
+        compensate_volume(tables, state, inputs, outputs);
+    }
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        AxisState *axis = &state->axis[i];
+        if (inputs->reset) {
+            axis->error = 0;
+        }
+        activate(&tables->axis[i], axis, inputs, &inputs->axis[i]);
+        if (axis->held) {
+            outputs->axis[i].error = ERROR_INPUT;
+        } else {
+            correct_axis(tables, state, inputs, &outputs->axis[i], i);
+            outputs->axis[i].error = axis->error;
+        }
+    }
 }
 
 /* ================================== adopt ===================================
@@ -1792,6 +1704,12 @@ static void add_friction_current(const Tables *tables, const AxisTable *table, A
  *
  * Only a volumetric compensation switches off, without motion; an automatic one then switches on again.
  */
+
+/* Tell whether a compensation is configured that was not. */
+static bool appears(const SwitchTable *before, const SwitchTable *after)
+{
+    return after->configured && !before->configured;
+}
 
 /* Return why an axis cannot take new tables, 0 if it can.
  *
@@ -1830,12 +1748,6 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
     return 0;
 }
 
-/* Tell whether a compensation is configured that was not. */
-static bool appears(const SwitchTable *before, const SwitchTable *after)
-{
-    return after->configured && !before->configured;
-}
-
 /* Make the state of the volumetric compensations fit their new tables. */
 void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *state, Outputs *outputs)
 {
@@ -1845,7 +1757,27 @@ void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *
     }
 }
 
-/* Make the state of an axis fit its new tables (``update_error`` is 0); what no longer exists puts out 0. */
+/* Keep a switch where it stands between off and on. */
+static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state)
+{
+    if (!after->configured) {
+        state->step = 0;
+    } else if (state->step >= before->cycles && state->step > 0) {
+        state->step = after->cycles;
+    } else {
+        state->step = int_min(state->step, after->cycles);
+    }
+    state->weight = ramp(state->step, after->cycles);
+    state->absorbed = 0.0;
+}
+
+/* Start the next search from the front: the new table may be shorter. */
+static void forget(Lookup *lookup)
+{
+    lookup->interval = 0;
+}
+
+/* Make the state of an axis fit its new tables (`update_error` is 0); what no longer exists puts out 0. */
 void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisState *axis, AxisOutputs *out)
 {
     adopt_switch(&before->cross.switching, &after->cross.switching, &axis->cross.switching);
@@ -1884,30 +1816,121 @@ void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisStat
     }
 }
 
-/* Keep a switch where it stands between off and on. */
-static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state)
-{
-    if (!after->configured) {
-        state->step = 0;
-    } else if (state->step >= before->cycles && state->step > 0) {
-        state->step = after->cycles;
-    } else {
-        state->step = int_min(state->step, after->cycles);
-    }
-    state->weight = ramp(state->step, after->cycles);
-    state->absorbed = 0.0;
-}
-
-/* Start the next search from the front: the new table may be shorter. */
-static void forget(Lookup *lookup)
-{
-    lookup->interval = 0;
-}
-
 /* ============================== volumetric_fit ==============================
  *
- * Whether the tables of a volumetric compensation can be trusted (see ``fit``).
+ * Whether the tables of a volumetric compensation can be trusted (see `fit`).
  */
+
+/* Tell whether members and letters mean axes. */
+static bool members_fit(const VolumetricTable *table, int32_t axes)
+{
+    if (!(0 <= table->members && table->members <= MEMBERS)) {
+        return false;
+    }
+    for (int32_t m = 0; m < table->members; m++) {
+        if (!(0 <= table->member[m] && table->member[m] < axes
+                && 0 <= table->member_letter[m] && table->member_letter[m] < LETTERS)) {
+            return false;
+        }
+    }
+    for (int32_t d = 0; d < LETTERS; d++) {
+        if (!(0 <= table->axis[d] && table->axis[d] < axes)) {
+            return false;
+        }
+        if (table->offset[d] - table->offset[d] != 0.0) {  /* not finite: no interpolation knows where the axis is */
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether the kinematic chain has letters only. */
+static bool chain_fits(const VolumetricTable *table)
+{
+    if (!(LINEAR <= table->chain_length && table->chain_length <= LETTERS
+            && 0 <= table->workpiece_axes && table->workpiece_axes <= table->chain_length)) {
+        return false;
+    }
+    for (int32_t k = 0; k < table->chain_length; k++) {
+        if (!(0 <= table->chain[k] && table->chain[k] < LETTERS)) {
+            return false;
+        }
+    }
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!(0 <= table->column[d] && table->column[d] < LINEAR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether so many numbers of the pool are at least 0 and below a limit. */
+static bool counts(const double *pool, int32_t first, int32_t count, int32_t limit)
+{
+    for (int32_t k = 0; k < count; k++) {
+        if (!(0.0 <= pool[first + k] && pool[first + k] < limit)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether every equal step along an argument leads to one of its knots. */
+static bool steps_fit(const double *pool, const ErrorBlock *block, int32_t d, int32_t numbers)
+{
+    int32_t points = block->points[d];
+    if (!(range_fits(block->steps[d], points + 1, numbers) && counts(pool, block->steps[d], points + 1, points))) {
+        return false;
+    }
+    double length = pool[block->knots[d] + points - 1] - pool[block->knots[d]];
+    return block->steps_per_unit[d] >= 0.0 && length * block->steps_per_unit[d] < points;
+}
+
+/* Tell whether the knots along each argument ascend, and make the nodes. */
+static bool knots_fit(const double *pool, const ErrorBlock *block, int32_t numbers)
+{
+    int32_t nodes = 1;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        int32_t points = block->points[d];
+        if (points < 1 || points > int_floor_div(block->nodes, nodes)
+                || !ascending(pool, block->knots[d], points, numbers)) {
+            return false;
+        }
+        nodes *= points;
+        if (points > 1 && !steps_fit(pool, block, d, numbers)) {
+            return false;
+        }
+    }
+    return nodes == block->nodes;
+}
+
+/* Tell whether errors over common nodes lie in the pool, with knots that ascend. */
+static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numbers)
+{
+    if (!(1 <= block->errors && block->errors <= ERRORS && 1 <= block->arguments && block->arguments <= LETTERS)) {
+        return false;
+    }
+    if (!(INTERPOLATE_GRID <= block->interpolation && block->interpolation <= INTERPOLATE_PATH
+            && 1 <= block->nodes && block->nodes <= int_floor_div(numbers, block->errors))) {
+        return false;
+    }
+    if (!(range_fits(block->error, block->errors, numbers) && counts(pool, block->error, block->errors, ERRORS))) {
+        return false;
+    }
+    if (!range_fits(block->values, block->nodes * block->errors, numbers)) {
+        return false;
+    }
+    for (int32_t d = 0; d < block->arguments; d++) {
+        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS)) {
+            return false;
+        }
+    }
+    if (block->interpolation == INTERPOLATE_GRID) {
+        return knots_fit(pool, block, numbers);
+    }
+    return block->nodes <= int_floor_div(numbers, block->arguments)
+            && range_fits(block->knots[0], block->nodes * block->arguments, numbers);
+}
 
 /* Tell whether a volumetric compensation can be used; one that is not configured is not looked at. */
 static bool volumetric_fits(const double *pool, const VolumetricTable *table, int32_t axes, int32_t numbers)
@@ -1937,117 +1960,6 @@ static bool volumetric_fits(const double *pool, const VolumetricTable *table, in
     return true;
 }
 
-/* Tell whether members and letters mean axes. */
-static bool members_fit(const VolumetricTable *table, int32_t axes)
-{
-    if (!(0 <= table->members && table->members <= MEMBERS)) {
-        return false;
-    }
-    for (int32_t m = 0; m < table->members; m++) {
-        if (!(0 <= table->member[m] && table->member[m] < axes && 0 <= table->member_letter[m]
-                && table->member_letter[m] < LETTERS)) {
-            return false;
-        }
-    }
-    for (int32_t d = 0; d < LETTERS; d++) {
-        if (!(0 <= table->axis[d] && table->axis[d] < axes)) {
-            return false;
-        }
-        if (table->offset[d] - table->offset[d] != 0.0) {  /* not finite: no interpolation knows where the axis is */
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Tell whether the kinematic chain has letters only. */
-static bool chain_fits(const VolumetricTable *table)
-{
-    if (!(LINEAR <= table->chain_length && table->chain_length <= LETTERS && 0 <= table->workpiece_axes
-            && table->workpiece_axes <= table->chain_length)) {
-        return false;
-    }
-    for (int32_t k = 0; k < table->chain_length; k++) {
-        if (!(0 <= table->chain[k] && table->chain[k] < LETTERS)) {
-            return false;
-        }
-    }
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (!(0 <= table->column[d] && table->column[d] < LINEAR)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Tell whether errors over common nodes lie in the pool, with knots that ascend. */
-static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numbers)
-{
-    if (!(1 <= block->errors && block->errors <= ERRORS && 1 <= block->arguments && block->arguments <= LETTERS)) {
-        return false;
-    }
-    if (!(INTERPOLATE_GRID <= block->interpolation && block->interpolation <= INTERPOLATE_PATH && 1 <= block->nodes
-            && block->nodes <= int_floor_div(numbers, block->errors))) {
-        return false;
-    }
-    if (!(range_fits(block->error, block->errors, numbers) && counts(pool, block->error, block->errors, ERRORS))) {
-        return false;
-    }
-    if (!range_fits(block->values, block->nodes * block->errors, numbers)) {
-        return false;
-    }
-    for (int32_t d = 0; d < block->arguments; d++) {
-        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS)) {
-            return false;
-        }
-    }
-    if (block->interpolation == INTERPOLATE_GRID) {
-        return knots_fit(pool, block, numbers);
-    }
-    return block->nodes <= int_floor_div(numbers, block->arguments)
-            && range_fits(block->knots[0], block->nodes * block->arguments, numbers);
-}
-
-/* Tell whether the knots along each argument ascend, and make the nodes. */
-static bool knots_fit(const double *pool, const ErrorBlock *block, int32_t numbers)
-{
-    int32_t nodes = 1;
-    for (int32_t d = 0; d < block->arguments; d++) {
-        int32_t points = block->points[d];
-        if (points < 1 || points > int_floor_div(block->nodes, nodes)
-                || !ascending(pool, block->knots[d], points, numbers)) {
-            return false;
-        }
-        nodes *= points;
-        if (points > 1 && !steps_fit(pool, block, d, numbers)) {
-            return false;
-        }
-    }
-    return nodes == block->nodes;
-}
-
-/* Tell whether every equal step along an argument leads to one of its knots. */
-static bool steps_fit(const double *pool, const ErrorBlock *block, int32_t d, int32_t numbers)
-{
-    int32_t points = block->points[d];
-    if (!(range_fits(block->steps[d], points + 1, numbers) && counts(pool, block->steps[d], points + 1, points))) {
-        return false;
-    }
-    double length = pool[block->knots[d] + points - 1] - pool[block->knots[d]];
-    return block->steps_per_unit[d] >= 0.0 && length * block->steps_per_unit[d] < points;
-}
-
-/* Tell whether so many numbers of the pool are at least 0 and below a limit. */
-static bool counts(const double *pool, int32_t first, int32_t count, int32_t limit)
-{
-    for (int32_t k = 0; k < count; k++) {
-        if (!(0.0 <= pool[first + k] && pool[first + k] < limit)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* =================================== fit ====================================
  *
  * Whether tables can be trusted: every offset lies in the pool, every index means an axis, every divisor is not 0.
@@ -2055,52 +1967,22 @@ static bool counts(const double *pool, int32_t first, int32_t count, int32_t lim
  * The table compiler makes only such tables; tables that come from a file are looked at before they are used.
  */
 
-/* Tell whether the tables can be used with a pool of so many numbers. */
-bool axcomp_tables_fit(const Tables *tables, int32_t numbers)
+/* Tell whether a transition has a possible length. */
+static bool switch_fits(const SwitchTable *table)
 {
-    if (!(tables->cycle_time > 0.0 && 0 <= tables->axis_count && tables->axis_count <= AXES)) {
-        return false;
-    }
-    for (int32_t i = 0; i < tables->axis_count; i++) {
-        if (!axis_fits(tables->axis[i].pool, &tables->axis[i], tables->axis_count, numbers)) {
-            return false;
-        }
-    }
-    if (!(0 <= tables->volumetrics && tables->volumetrics <= VOLUMETRICS)) {
-        return false;
-    }
-    for (int32_t k = 0; k < tables->volumetrics; k++) {
-        if (!volumetric_fits(tables->pool, &tables->volumetric[k], tables->axis_count, numbers)) {
-            return false;
-        }
-    }
-    return true;
+    return 1 <= table->cycles && table->cycles <= CYCLES_MAX;
 }
 
-/* Tell whether the tables of one axis can be used; what is not configured is not looked at. */
-static bool axis_fits(const double *pool, const AxisTable *table, int32_t axes, int32_t numbers)
+/* Tell whether a curve lies in the pool and its abscissae ascend. */
+static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
 {
-    if (table->modulo_range < 0.0 || !(1 <= table->shift_cycles && table->shift_cycles <= CYCLES_MAX)) {
-        return false;
-    }
-    if (table->cross.switching.configured && !cross_fits(pool, &table->cross, axes, numbers)) {
-        return false;
-    }
-    if (table->plane.switching.configured && !plane_fits(&table->plane, axes, numbers)) {
-        return false;
-    }
-    if (table->crosstalk.switching.configured && !crosstalk_fits(pool, &table->crosstalk, axes, numbers)) {
-        return false;
-    }
-    if (table->leadscrew.switching.configured) {
-        if (table->leadscrew.modulo && table->modulo_range == 0.0) {
-            return false;
-        }
-        if (!leadscrew_fits(pool, &table->leadscrew, numbers)) {
-            return false;
-        }
-    }
-    return !table->friction.switching.configured || friction_fits(pool, &table->friction, numbers);
+    return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
+}
+
+/* Tell whether an index means an axis. */
+static bool index_fits(int32_t index, int32_t axes)
+{
+    return 0 <= index && index < axes;
 }
 
 /* Tell whether a cross compensation can be used. */
@@ -2129,42 +2011,11 @@ static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers)
     return range_fits(table->values, table->points1 * table->points2, numbers);
 }
 
-/* Tell whether a crosstalk compensation can be used. */
-static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int32_t axes, int32_t numbers)
-{
-    if (!(switch_fits(&table->switching) && index_fits(table->master, axes))) {
-        return false;
-    }
-    if (!(index_fits(table->adaptation1, axes) && index_fits(table->adaptation2, axes))) {
-        return false;
-    }
-    if (table->variant == CROSSTALK_CURVE) {
-        return curve_fits(pool, &table->curve, numbers);
-    }
-    if (!(CROSSTALK_CURVE < table->variant && table->variant <= CROSSTALK_TRIANGLES && 1 <= table->tests
-            && table->tests <= int_floor_div(numbers, 4))) {
-        return false;
-    }
-    if (!(table->acceleration > 0.0 && table->deceleration < 0.0)) {
-        return false;
-    }
-    if (!range_fits(table->values, 4 * table->tests, numbers)) {
-        return false;
-    }
-    if (table->variant == CROSSTALK_LINE) {
-        return table->tests > 1 && ascending(pool, table->x1, table->tests, numbers);
-    }
-    if (table->variant == CROSSTALK_GRID) {
-        return grid_fits(pool, table, numbers);
-    }
-    return table->variant != CROSSTALK_TRIANGLES || triangles_fit(pool, table, numbers);
-}
-
 /* Tell whether the grid of tests can be used. */
 static bool grid_fits(const double *pool, const CrosstalkTable *table, int32_t numbers)
 {
-    if (!(1 < table->points1 && table->points1 <= table->tests && 1 < table->points2
-            && table->points2 <= table->tests)) {
+    if (!(1 < table->points1 && table->points1 <= table->tests
+            && 1 < table->points2 && table->points2 <= table->tests)) {
         return false;
     }
     if (table->points2 != int_floor_div(table->tests, table->points1)
@@ -2180,8 +2031,8 @@ static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32
     if (!(range_fits(table->x1, table->tests, numbers) && range_fits(table->x2, table->tests, numbers))) {
         return false;
     }
-    if (!(1 <= table->triangles && table->triangles <= int_floor_div(numbers, 3) && 1 <= table->edges
-            && table->edges <= int_floor_div(numbers, 2))) {
+    if (!(1 <= table->triangles && table->triangles <= int_floor_div(numbers, 3)
+            && 1 <= table->edges && table->edges <= int_floor_div(numbers, 2))) {
         return false;
     }
     if (!range_fits(table->triangle, 3 * table->triangles, numbers)) {
@@ -2190,17 +2041,48 @@ static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32
     if (!range_fits(table->edge, 2 * table->edges, numbers)) {
         return false;
     }
-    for (int32_t k = 0, k_end = 3 * table->triangles; k < k_end; k++) {
+    for (int32_t k = 0; k < 3 * table->triangles; k++) {
         if (!(0.0 <= pool[table->triangle + k] && pool[table->triangle + k] < table->tests)) {
             return false;
         }
     }
-    for (int32_t k = 0, k_end = 2 * table->edges; k < k_end; k++) {
+    for (int32_t k = 0; k < 2 * table->edges; k++) {
         if (!(0.0 <= pool[table->edge + k] && pool[table->edge + k] < table->tests)) {
             return false;
         }
     }
     return true;
+}
+
+/* Tell whether a crosstalk compensation can be used. */
+static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int32_t axes, int32_t numbers)
+{
+    if (!(switch_fits(&table->switching) && index_fits(table->master, axes))) {
+        return false;
+    }
+    if (!(index_fits(table->adaptation1, axes) && index_fits(table->adaptation2, axes))) {
+        return false;
+    }
+    if (table->variant == CROSSTALK_CURVE) {
+        return curve_fits(pool, &table->curve, numbers);
+    }
+    if (!(CROSSTALK_CURVE < table->variant && table->variant <= CROSSTALK_TRIANGLES
+            && 1 <= table->tests && table->tests <= int_floor_div(numbers, 4))) {
+        return false;
+    }
+    if (!(table->acceleration > 0.0 && table->deceleration < 0.0)) {
+        return false;
+    }
+    if (!range_fits(table->values, 4 * table->tests, numbers)) {
+        return false;
+    }
+    if (table->variant == CROSSTALK_LINE) {
+        return table->tests > 1 && ascending(pool, table->x1, table->tests, numbers);
+    }
+    if (table->variant == CROSSTALK_GRID) {
+        return grid_fits(pool, table, numbers);
+    }
+    return table->variant != CROSSTALK_TRIANGLES || triangles_fit(pool, table, numbers);
 }
 
 /* Tell whether a leadscrew compensation can be used. */
@@ -2225,20 +2107,50 @@ static bool friction_fits(const double *pool, const FrictionTable *table, int32_
             && table->position_delay >= 0.0;
 }
 
-/* Tell whether a transition has a possible length. */
-static bool switch_fits(const SwitchTable *table)
+/* Tell whether the tables of one axis can be used; what is not configured is not looked at. */
+static bool axis_fits(const double *pool, const AxisTable *table, int32_t axes, int32_t numbers)
 {
-    return 1 <= table->cycles && table->cycles <= CYCLES_MAX;
+    if (table->modulo_range < 0.0 || !(1 <= table->shift_cycles && table->shift_cycles <= CYCLES_MAX)) {
+        return false;
+    }
+    if (table->cross.switching.configured && !cross_fits(pool, &table->cross, axes, numbers)) {
+        return false;
+    }
+    if (table->plane.switching.configured && !plane_fits(&table->plane, axes, numbers)) {
+        return false;
+    }
+    if (table->crosstalk.switching.configured && !crosstalk_fits(pool, &table->crosstalk, axes, numbers)) {
+        return false;
+    }
+    if (table->leadscrew.switching.configured) {
+        if (table->leadscrew.modulo && table->modulo_range == 0.0) {
+            return false;
+        }
+        if (!leadscrew_fits(pool, &table->leadscrew, numbers)) {
+            return false;
+        }
+    }
+    return !table->friction.switching.configured || friction_fits(pool, &table->friction, numbers);
 }
 
-/* Tell whether a curve lies in the pool and its abscissae ascend. */
-static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
+/* Tell whether the tables can be used with a pool of so many numbers. */
+bool axcomp_tables_fit(const Tables *tables, int32_t numbers)
 {
-    return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
-}
-
-/* Tell whether an index means an axis. */
-static bool index_fits(int32_t index, int32_t axes)
-{
-    return 0 <= index && index < axes;
+    if (!(tables->cycle_time > 0.0 && 0 <= tables->axis_count && tables->axis_count <= AXES)) {
+        return false;
+    }
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        if (!axis_fits(tables->axis[i].pool, &tables->axis[i], tables->axis_count, numbers)) {
+            return false;
+        }
+    }
+    if (!(0 <= tables->volumetrics && tables->volumetrics <= VOLUMETRICS)) {
+        return false;
+    }
+    for (int32_t k = 0; k < tables->volumetrics; k++) {
+        if (!volumetric_fits(tables->pool, &tables->volumetric[k], tables->axis_count, numbers)) {
+            return false;
+        }
+    }
+    return true;
 }

@@ -14,7 +14,7 @@
  *
  * Records of the volumetric compensation. Lengths in mm, positions of rotary axes in °, angular errors in rad.
  *
- * An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Error ``ERRORS_OF_AXIS · letter + k`` is
+ * An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Error `ERRORS_OF_AXIS · letter + k` is
  * X0 Y0 Z0 A0 B0 C0 (k = 0 … 5) or EX EY EZ EA EB EC (k = 6 … 11) of that axis.
  */
 
@@ -36,8 +36,8 @@
 
 /* Errors over the same nodes.
  *
- * Value p of node n is at ``values + n * errors + p`` in the pool, the number of error p at ``error + p``. On a grid
- * the last argument changes fastest. Otherwise coordinate d of node n is at ``knots[0] + n * arguments + d``.
+ * Value p of node n is at `values + n * errors + p` in the pool, the number of error p at `error + p`. On a grid
+ * the last argument changes fastest. Otherwise coordinate d of node n is at `knots[0] + n * arguments + d`.
  */
 typedef struct {
     int32_t interpolation;  /* one of the INTERPOLATE_ constants */
@@ -83,7 +83,7 @@ typedef struct {
     ErrorBlock block[ERRORS];
 } VolumetricTable;
 
-/* What a volumetric compensation remembers. ``weight`` goes 0 … 1 and back while it switches. */
+/* What a volumetric compensation remembers. `weight` goes 0 … 1 and back while it switches. */
 typedef struct {
     bool started;
     bool enable;  /* the input in the last cycle: its edges are the commands */
@@ -94,7 +94,7 @@ typedef struct {
     int32_t step;
     double weight;
     double factor[LINEAR];  /* the wanted one when it was last switched on */
-    bool taking_part[LINEAR];  /* False: dropped, its correction has become a shift */
+    bool taking_part[LINEAR];  /* false: dropped, its correction has become a shift */
     bool absorbed[LINEAR];  /* what its correction changes in this cycle goes into the shift */
     double value[LINEAR];  /* correction at full weight */
     double contribution[LINEAR];  /* weight · value */
@@ -122,7 +122,7 @@ typedef struct {
  * The four records of the engine: what is fixed (Tables), remembered (State), given (Inputs) and returned (Outputs).
  *
  * Positions are in mm or °, velocities and accelerations in the same unit per s and s². A table of numbers is an offset
- * into a pool. An axis is meant by its index, 0 … ``axis_count`` − 1.
+ * into a pool. An axis is meant by its index, 0 … `axis_count` − 1.
  */
 
 #define AXES 32
@@ -154,7 +154,7 @@ typedef struct {
     double absorbed;  /* change of the weight that NO_MOVE takes out of the output, this cycle only */
 } SwitchState;
 
-/* Piecewise linear y(x): ``points`` abscissae and as many ordinates in the pool. */
+/* Piecewise linear y(x): `points` abscissae and as many ordinates in the pool. */
 typedef struct {
     int32_t points;
     int32_t x;
@@ -202,8 +202,8 @@ typedef struct {
 
 /* Crosstalk compensation (kw.crosstalk).
  *
- * ``values`` has four blocks of ``tests`` numbers: acceleration in positive and negative motion, deceleration in
- * positive and negative motion. In the old variant ``curve`` is the correction over the signed acceleration.
+ * `values` has four blocks of `tests` numbers: acceleration in positive and negative motion, deceleration in
+ * positive and negative motion. In the old variant `curve` is the correction over the signed acceleration.
  */
 typedef struct {
     SwitchTable switching;
@@ -447,16 +447,22 @@ typedef struct {
 extern "C" {
 #endif
 
+/* Set inputs that are all 0 to what they are at the start. */
 AXCOMP_API void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs);
 
+/* Run one cycle: the outputs belong to these inputs. */
 AXCOMP_API void axcomp_cycle(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs);
 
+/* Return why an axis cannot take new tables, 0 if it can. */
 AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after);
 
+/* Make the state of the volumetric compensations fit their new tables. */
 AXCOMP_API void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *state, Outputs *outputs);
 
+/* Make the state of an axis fit its new tables (`update_error` is 0); what no longer exists puts out 0. */
 AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisState *axis, AxisOutputs *out);
 
+/* Tell whether the tables can be used with a pool of so many numbers. */
 AXCOMP_API bool axcomp_tables_fit(const Tables *tables, int32_t numbers);
 
 #ifdef __cplusplus

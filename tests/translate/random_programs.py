@@ -43,7 +43,6 @@ class Whole:
 
 @dataclass(slots=True)
 class Tables:
-    table: Vec
     scale: float
 
 
@@ -80,7 +79,7 @@ class Maker:
         self._fresh = 0
 
     def program(self, functions: int = 5) -> tuple[str, list[str]]:
-        """Return the source and the names of its exported functions, each f(whole, tables, x, i, b) -> float."""
+        """Return the source and the names of its exported functions, each f(whole, tables, table, x, i, b)."""
         text = START
         for k in range(functions):
             text += self._scalar_function(f"scalar_{k}")
@@ -118,10 +117,10 @@ class Maker:
             f"    alias = whole_.parts[{first}]\n"
             "    alias_line = alias.line\n"
             "    local = zeros(LENGTH)\n"
-            "    local[2] = x + tables.table[i % 6]\n"
+            "    local[2] = x + table[i % 6] * tables.scale\n"
             "    alias.y += alias_line[1] * 0.5\n"
         )
-        head = f"def {name}(whole_: Whole, tables: Tables, x: float, i: int, b: bool) -> float:\n"
+        head = f"def {name}(whole_: Whole, tables: Tables, table: Vec, x: float, i: int, b: bool) -> float:\n"
         return f"{head}{body}{self._block(3, 1)}{self._end('local[0] + local[2] + whole_.total * b')}\n\n"
 
     def _scope(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -133,6 +134,7 @@ typedef struct {
 extern "C" {
 #endif
 
+/* Move every part by one step. */
 AXCOMP_API double axcomp_step(Machine *machine, const double *table, bool forward);
 
 #ifdef __cplusplus
@@ -144,8 +146,6 @@ AXCOMP_API double axcomp_step(Machine *machine, const double *table, bool forwar
 
 SOURCE = """\
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
-
-static void record_move(Part *part, double moved);
 
 /* ================================== limits ================================== */
 
@@ -159,6 +159,13 @@ static void record_move(Part *part, double moved);
  */
 
 #define STEP 0.25  /* mm */
+
+static void record_move(Part *part, double moved)
+{
+    part->position += moved;
+    part->history[part->moves & 3] = part->position;
+    part->moves += 1;
+}
 
 /* Exported: the rest is static. */
 /* Move every part by one step.
@@ -189,13 +196,6 @@ double axcomp_step(Machine *machine, const double *table, bool forward)
     }
     return total;
 }
-
-static void record_move(Part *part, double moved)
-{
-    part->position += moved;
-    part->history[part->moves & 3] = part->position;
-    part->moves += 1;
-}
 """
 
 
@@ -213,6 +213,41 @@ def test_the_example_becomes_this_header_and_this_source(example: Path) -> None:
 
 def test_translating_twice_gives_the_same_text(example: Path) -> None:
     assert translate(example, ["step"]) == translate(example, ["step"])
+
+
+MODULES = {
+    "late": """
+from .early import shared
+_FACTOR = 2.0
+def top(x: float) -> float:
+    return middle(x) + leaf(x)
+def aside(x: float) -> float:
+    return shared(x)
+def leaf(x: float) -> float:
+    return x * _LATER
+def middle(x: float) -> float:
+    return leaf(x) * _FACTOR + below(x) + aside(x)
+_LATER = 3.0
+def below(x: float) -> float:
+    return shared(x)
+""",
+    "early": """
+def shared(x: float) -> float:
+    return hidden(x)
+def hidden(x: float) -> float:
+    return -x
+""",
+}
+
+
+def test_functions_stand_behind_what_they_call_else_in_the_order_of_the_source(tmp_path: Path) -> None:
+    source = translate(write_package(tmp_path / "ordered", MODULES), ["top"]).source
+    order = re.findall(r"^(?:#define|static double|double) (\w+)|^/\* =+ (\w+) =+", source, re.MULTILINE)
+    assert [name or module for name, module in order] == [
+        *("early", "hidden", "shared"),
+        *("late", "FACTOR", "LATER", "leaf", "aside", "below", "middle", "axcomp_top"),
+    ]
+    assert not re.search(r"^\w.*\);$", source, re.MULTILINE), "a prototype"
 
 
 COMPILERS = {
@@ -258,3 +293,52 @@ def test_a_long_line_is_broken_where_it_binds_least(build: Builder) -> None:
     lines = [line for line in source.splitlines() if "factor" in line]
     assert max(map(len, lines)) <= 120
     assert any(line.startswith("            + (first_factor * ") for line in lines)
+
+
+def test_a_chain_of_comparisons_stays_on_one_line(build: Builder) -> None:
+    names = [f"quantity_{k}" for k in range(4)]
+    chains = " and ".join(f"-1.0 < {name} < 1.0" for name in names)
+    parameters = ", ".join(f"{name}: float" for name in names)
+    source = build(PREAMBLE + f"def f({parameters}) -> bool:\n    return {chains}\n", ["f"]).translation.source
+    parts = [f"-1.0 < {name} && {name} < 1.0" for name in names]
+    assert f"    return {parts[0]} && {parts[1]}\n            && {parts[2]} && {parts[3]};\n" in source
+
+
+def test_constants_are_named_in_indices_lengths_and_bounds(build: Builder) -> None:
+    text = PREAMBLE + (
+        "EA = 9\n_PER_AXIS = 12\nERRORS = 72\n"
+        "def f(letter: int) -> float:\n"
+        "    errors = zeros(ERRORS)\n"
+        "    e = _PER_AXIS * letter\n"
+        "    for k in range(EA * letter):\n"
+        "        errors[k] = 1.0\n"
+        "    errors[e + EA] = 2.0\n"
+        "    return errors[_PER_AXIS * 2 + EA] + g(errors)\n"
+        "def g(errors: Annotated[list[float], ERRORS]) -> float:\n"
+        "    return errors[EA]\n"
+    )
+    source = build(text, ["f"]).translation.source
+    for line in (
+        "double errors[ERRORS] = {0};",
+        "int32_t e = PER_AXIS * letter;",
+        "for (int32_t k = 0; k < EA * letter; k++) {",
+        "errors[e + EA] = 2.0;",
+        "return errors[PER_AXIS * 2 + EA] + g(errors);",
+        "static double g(const double errors[ERRORS])",
+        "return errors[EA];",
+    ):
+        assert f"{line}\n" in source
+
+
+def test_a_counter_that_nobody_reads_gets_a_name(build: Builder) -> None:
+    text = PREAMBLE + "def f(i: int) -> int:\n    for _ in range(3):\n        i += i\n    return i\n"
+    built = build(text, ["f"])
+    assert "for (int32_t i_ = 0; i_ < 3; i_++) {" in built.translation.source
+    assert built.native.axcomp_f(5) == 40
+
+
+def test_comments_write_code_and_truth_values_as_c_does(build: Builder) -> None:
+    text = PREAMBLE + 'def f(x: bool) -> bool:\n    """Return ``x``; True: it is."""\n    return x  # False: Falsity\n'
+    source = build(text, ["f"]).translation.source
+    assert "/* Return `x`; true: it is. */" in source
+    assert "return x;  /* false: Falsity */" in source

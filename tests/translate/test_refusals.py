@@ -24,7 +24,6 @@ class All:
     part: Part
     other: Part
     parts: Annotated[list[Part], N]
-    table: Vec
 
 def change(p: Part) -> float:
     p.x = p.x + 1.0
@@ -36,7 +35,7 @@ def look(p: Part) -> float:
 """
 
 BODIES = [
-    # lines of f(a: All, x: float, n: int, b: bool) -> float, the refused one of them, part of the sentence
+    # lines of f(a: All, table: Vec, x: float, n: int, b: bool) -> float, the refused one of them, part of the sentence
     ("y, z = x, x", 1, "tuple"),
     ("return (x, x)", 1, "tuple"),
     ("y = z = x", 1, "one target"),
@@ -78,7 +77,7 @@ BODIES = [
     ("a.part = a.other", 1, "Python would share it, C would copy it"),
     ("a.part.line = a.other.line", 1, "Python would share it, C would copy it"),
     ("a.parts[n] = a.part", 1, "Python would share it, C would copy it"),
-    ("a.table[0] = x", 1, "only read"),
+    ("table[0] = x", 1, "only read"),
     ("a = a.part", 1, "not rebound"),
     ("p = a.part if b else a.other\np.x = x", 1, "same kind of number"),
     ("x = a.part.line[-1]", 1, "negative index"),
@@ -225,8 +224,8 @@ def refusals(tmp_path: Path, text: str, exports: tuple[str, ...] = ("f",)) -> li
 
 @pytest.mark.parametrize(("body", "line", "sentence"), BODIES, ids=[body.partition("\n")[0] for body, _, _ in BODIES])
 def test_a_body_outside_the_subset_is_refused_at_its_line(tmp_path: Path, body: str, line: int, sentence: str) -> None:
-    start = PREAMBLE + RECORDS + "def f(a: All, x: float, n: int, b: bool) -> float:\n"
-    read_all = "    if b:\n        x += float(n) + look(a.part)\n"
+    start = PREAMBLE + RECORDS + "def f(a: All, table: Vec, x: float, n: int, b: bool) -> float:\n"
+    read_all = "    if b:\n        x += float(n) + look(a.part) + table[0]\n"
     lines = "".join(f"    {one}\n" for one in body.split("\n"))
     found = refusals(tmp_path, f"{start}{lines}{read_all}    return x\n")
     place = start.count("\n") + line
@@ -241,6 +240,30 @@ def test_a_definition_outside_the_subset_is_refused_at_its_line(
     end = "\n\ndef last() -> int:\n    return 1\n"
     found = refusals(tmp_path, PREAMBLE + text + end, ("last",))
     assert any(where == PREAMBLE.count("\n") + line and sentence in what for _, where, what in found), found
+
+
+def test_a_record_that_holds_a_vec_is_refused_once_by_module_record_and_field(tmp_path: Path) -> None:
+    record = "@dataclass(slots=True)\nclass Table:\n    scale: float\n    pool: Vec  # numbers\n"
+    user = (
+        "from .tables import Table\n\n\ndef f(table: Table, i: int) -> float:\n    pool = table.pool\n"
+        "    return g(pool, i) * table.scale + table.pool[0]\n\n\n"
+    )
+    taker = "def g(pool: Vec, i: int) -> float:\n    return pool[i]\n"
+    folder = write_package(tmp_path / "package", {"tables": PREAMBLE + record, "user": PREAMBLE + user + taker})
+    with pytest.raises(TranslationError) as error:
+        translate(folder, ("f",))
+    line = PREAMBLE.count("\n") + 4
+    assert str(error.value) == (
+        f"{folder / 'tables.py'}:{line}: pool of the record Table in tables is a Vec, a pointer in"
+        " C, and a record holds none: keep an offset, and hand the Vec to the functions as a parameter"
+    )
+
+
+def test_a_vec_is_handed_on_from_parameter_to_parameter(tmp_path: Path) -> None:
+    caller = "def f(pool: Vec) -> float:\n    numbers = pool\n    return g(numbers)\n"
+    text = f"{caller}def g(pool: Vec) -> float:\n    return pool[1]\n"
+    source = translate(write_package(tmp_path / "package", {"functions": PREAMBLE + text}), ("f",)).source
+    assert "double axcomp_f(const double *pool)\n{\n    const double *numbers = pool;\n    return g(numbers);" in source
 
 
 def test_every_refusal_of_every_module_is_reported_at_once(tmp_path: Path) -> None:

@@ -61,15 +61,20 @@ def check_program(build: Builder, seed: int, calls: int, *options: str) -> None:
         for _ in range(calls):
             whole, tables = zero(built.python.Whole), zero(built.python.Tables)
             fill(whole, source)
-            tables.table = [source.uniform(-5, 5) for _ in range(6)]
+            table = [source.uniform(-5, 5) for _ in range(6)]
             tables.scale = source.uniform(-2, 2)
             c_whole, c_tables = ctypes_of(built.python.Whole)(), ctypes_of(built.python.Tables)()
             to_c(whole, c_whole)
             to_c(tables, c_tables)
             x, i, b = source.uniform(-5, 5), source.randint(-30, 30), source.random() < 0.5
-            expected = getattr(built.python, name)(whole, tables, x, i, b)
+            expected = getattr(built.python, name)(whole, tables, table, x, i, b)
             found = function(
-                ctypes.byref(c_whole), ctypes.byref(c_tables), ctypes.c_double(x), ctypes.c_int32(i), ctypes.c_bool(b)
+                ctypes.byref(c_whole),
+                ctypes.byref(c_tables),
+                (ctypes.c_double * len(table))(*table),
+                ctypes.c_double(x),
+                ctypes.c_int32(i),
+                ctypes.c_bool(b),
             )
             after = zero(built.python.Whole)
             from_c(c_whole, after)
