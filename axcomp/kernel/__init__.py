@@ -4,5 +4,14 @@ Numbers are double and int32, tables lie in one pool of doubles, and nothing is 
 language and on any machine, give the same bits. ``record`` is the only module that C does not see.
 """
 
-EXPORTS = ("set_initial_inputs", "cycle", "update_error", "adopt_axis", "adopt_volumetrics", "tables_fit")
+EXPORTS = (
+    "set_initial_inputs",
+    "cycle",
+    "has_left_table",
+    "update_error",
+    "adopt_axis",
+    "adopt_volumetrics",
+    "move_axis_table",
+    "tables_fit",
+)
 """The functions that C calls by name; the translation has them and what they call."""

@@ -7,9 +7,21 @@ adaptation axes. The old variant (manual 001) is a curve over a.
 
 from __future__ import annotations
 
-from .interpolation import curve_value, find_interval
+from dataclasses import dataclass
+
+from .interpolation import (
+    Curve,
+    Lookup,
+    ascending,
+    curve_fits,
+    curve_value,
+    find_interval,
+    forget,
+    move_curve,
+    range_fits,
+)
+from .motion import Argument, Motion, argument_fits, position_of
 from .record import Vec
-from .records import CrosstalkState, CrosstalkTable, Lookup
 
 CROSSTALK_CURVE = 0  # manual 001: linear over the acceleration
 CROSSTALK_CONSTANT = 1  # mode 1
@@ -20,20 +32,46 @@ CROSSTALK_TRIANGLES = 4  # mode 3, scattered tests
 ON_EDGE = -1e-7  # barycentric coordinate of a point that rounding puts just outside a triangle, as flat as they come
 
 
-def crosstalk_value(
-    pool: Vec,
-    table: CrosstalkTable,
-    state: CrosstalkState,
-    acceleration: float,
-    velocity: float,
-    position1: float,
-    position2: float,
-) -> float:
+@dataclass(slots=True)
+class CrosstalkTable:
+    """Correction of the slave while its master accelerates.
+
+    ``values`` has four blocks of ``tests`` numbers: acceleration in positive and negative motion, deceleration in
+    positive and negative motion. In the old variant ``curve`` is the correction over the signed acceleration.
+    """
+
+    variant: int  # one of the CROSSTALK_ constants
+    master: int
+    adaptation1: Argument
+    adaptation2: Argument
+    acceleration: float
+    deceleration: float  # < 0
+    velocity_dependent: bool
+    curve: Curve
+    tests: int
+    values: int
+    points1: int  # grid: abscissae of the first adaptation axis; values are [j][i] as in a plane
+    points2: int
+    x1: int  # abscissae of the first adaptation axis, or the tests' positions
+    x2: int
+    triangles: int  # scattered tests: three test numbers each
+    triangle: int
+    edges: int  # hull of the tests: two test numbers each
+    edge: int
+
+
+@dataclass(slots=True)
+class CrosstalkState:
+    """What the crosstalk compensation remembers."""
+
+    lookup: Lookup
+    lookup2: Lookup
+    outside: bool  # the adaptation axes have left the hull of the tests
+
+
+def crosstalk_value(pool: Vec, table: CrosstalkTable, state: CrosstalkState, motion: Motion) -> float:
     """Return the correction at full weight, from the master's motion and the adaptation axes' positions."""
-    if velocity > 0.0:
-        state.negative = False
-    elif velocity < 0.0:
-        state.negative = True
+    acceleration = motion.axis[table.master].acceleration
     if table.variant == CROSSTALK_CURVE:
         return curve_value(pool, table.curve, acceleration, state.lookup)
 
@@ -42,8 +80,10 @@ def crosstalk_value(
     if acceleration < 0.0:
         block = 2
         share = acceleration / table.deceleration
-    if table.velocity_dependent and state.negative:
+    if table.velocity_dependent and motion.axis[table.master].direction < 0:
         block = block + 1
+    position1 = position_of(motion, table.adaptation1)
+    position2 = position_of(motion, table.adaptation2)
     value = test_value(pool, table, state, table.values + block * table.tests, position1, position2)
     return value * min(share, 1.0)
 
@@ -130,3 +170,68 @@ def hull_value(pool: Vec, table: CrosstalkTable, values: int, x: float, y: float
             shortest = distance
             value = pool[values + a] + t * (pool[values + b] - pool[values + a])
     return value
+
+
+def adopt_crosstalk(state: CrosstalkState) -> None:
+    """Go on with another table."""
+    forget(state.lookup)
+    forget(state.lookup2)
+
+
+def move_crosstalk(table: CrosstalkTable, by: int) -> None:
+    """Follow the numbers of the table to another place in the pool."""
+    move_curve(table.curve, by)
+    table.values += by
+    table.x1 += by
+    table.x2 += by
+    table.triangle += by
+    table.edge += by
+
+
+def crosstalk_fits(pool: Vec, table: CrosstalkTable, axes: int, numbers: int) -> bool:
+    """Tell whether the table can be used."""
+    if not 0 <= table.master < axes:
+        return False
+    if not (argument_fits(table.adaptation1, axes) and argument_fits(table.adaptation2, axes)):
+        return False
+    if table.variant == CROSSTALK_CURVE:
+        return curve_fits(pool, table.curve, numbers)
+    if not (CROSSTALK_CURVE < table.variant <= CROSSTALK_TRIANGLES and 1 <= table.tests <= numbers // 4):
+        return False
+    if not (table.acceleration > 0.0 and table.deceleration < 0.0):
+        return False
+    if not range_fits(table.values, 4 * table.tests, numbers):
+        return False
+    if table.variant == CROSSTALK_LINE:
+        return table.tests > 1 and ascending(pool, table.x1, table.tests, numbers)
+    if table.variant == CROSSTALK_GRID:
+        return test_grid_fits(pool, table, numbers)
+    return table.variant != CROSSTALK_TRIANGLES or triangles_fit(pool, table, numbers)
+
+
+def test_grid_fits(pool: Vec, table: CrosstalkTable, numbers: int) -> bool:
+    """Tell whether the grid of tests can be used."""
+    if not (1 < table.points1 <= table.tests and 1 < table.points2 <= table.tests):
+        return False
+    if table.points2 != table.tests // table.points1 or table.tests % table.points1 != 0:
+        return False
+    return ascending(pool, table.x1, table.points1, numbers) and ascending(pool, table.x2, table.points2, numbers)
+
+
+def triangles_fit(pool: Vec, table: CrosstalkTable, numbers: int) -> bool:
+    """Tell whether the triangles and the hull of scattered tests can be used."""
+    if not (range_fits(table.x1, table.tests, numbers) and range_fits(table.x2, table.tests, numbers)):
+        return False
+    if not (1 <= table.triangles <= numbers // 3 and 1 <= table.edges <= numbers // 2):
+        return False
+    if not range_fits(table.triangle, 3 * table.triangles, numbers):
+        return False
+    if not range_fits(table.edge, 2 * table.edges, numbers):
+        return False
+    for k in range(3 * table.triangles):
+        if not 0.0 <= pool[table.triangle + k] < table.tests:
+            return False
+    for k in range(2 * table.edges):
+        if not 0.0 <= pool[table.edge + k] < table.tests:
+            return False
+    return True

@@ -7,50 +7,70 @@ cycles before one: the cycle n cycles before the last one of the old direction h
 
 from __future__ import annotations
 
-from .interpolation import curve_value, nearest
+from dataclasses import dataclass
+from typing import Annotated
+
+from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
+from .motion import AxisMotion
 from .record import Vec, whole
-from .records import DELAY_LINE, FrictionState, FrictionTable
+
+DELAY_LINE = 249  # delay_cycles < 249 (P-COMP-00058)
+LOOKAHEAD_MAX = 4  # P-COMP-00044
+
+
+@dataclass(slots=True)
+class FrictionTable:
+    """Current over the speed."""
+
+    curve: Curve
+    scaling: float
+    position_delay: float
+    lookahead: int
+    delay: int
+    modulo_range: float  # of the axis; 0: it does not count modulo
+
+
+@dataclass(slots=True)
+class FrictionState:
+    """What the friction compensation remembers."""
+
+    lookup: Lookup
+    direction: int  # sign of the last velocity that was not 0
+    reversal_position: float
+    built_up: bool  # the axis has gone position_delay since
+    since_reversal: int  # cycles, at most lookahead
+    head: int  # where the delay line is written next
+    line: Annotated[list[float], DELAY_LINE]
 
 
 def friction_current(
-    pool: Vec,
-    table: FrictionTable,
-    state: FrictionState,
-    position: float,
-    velocity: float,
-    acceleration: float,
-    cycle_time: float,
-    modulo_range: float,
+    pool: Vec, table: FrictionTable, state: FrictionState, motion: AxisMotion, cycle_time: float
 ) -> float:
     """Return the current of this cycle at full weight, and keep the delay line."""
-    sign = 0
-    if velocity > 0.0:
-        sign = 1
-    elif velocity < 0.0:
-        sign = -1
+    sign = motion.sign
     if sign != 0 and sign != state.direction:
         if table.delay >= table.lookahead:
             decay_delayed(table, state)
         state.direction = sign
-        state.reversal_position = position
+        state.reversal_position = motion.setpoint
         state.built_up = False
         state.since_reversal = 0
 
     current = 0.0
     if sign != 0:
-        current = table.scaling * sign * curve_value(pool, table.curve, abs(velocity), state.lookup)
-        current = current * build_up(table, state, position, modulo_range)
+        current = table.scaling * sign * curve_value(pool, table.curve, abs(motion.velocity), state.lookup)
+        current = current * build_up(table, state, motion.setpoint)
         if table.delay < table.lookahead:
-            current = current * decay_predicted(table, velocity, acceleration, cycle_time)
+            current = current * decay_predicted(table, motion.velocity, motion.acceleration, cycle_time)
     if state.since_reversal < table.lookahead:
         state.since_reversal += 1
     return delayed(table, state, current)
 
 
-def build_up(table: FrictionTable, state: FrictionState, position: float, modulo_range: float) -> float:
+def build_up(table: FrictionTable, state: FrictionState, position: float) -> float:
     """Return w_after = min(1, |s − s_reversal| / position_delay); once 1 it stays until the next reversal."""
     if not state.built_up:
-        distance = abs(nearest(position - state.reversal_position, modulo_range))
+        distance = abs(nearest(position - state.reversal_position, table.modulo_range))
         if distance < table.position_delay:
             return distance / table.position_delay
         state.built_up = True
@@ -83,3 +103,21 @@ def delayed(table: FrictionTable, state: FrictionState, current: float) -> float
         at += DELAY_LINE
     state.head = state.head + 1 if state.head < DELAY_LINE - 1 else 0
     return state.line[at]
+
+
+def adopt_friction(after: FrictionTable, state: FrictionState) -> None:
+    """Go on with another table."""
+    forget(state.lookup)
+    state.since_reversal = min(state.since_reversal, after.lookahead)
+
+
+def move_friction(table: FrictionTable, by: int) -> None:
+    """Follow the numbers of the table to another place in the pool."""
+    move_curve(table.curve, by)
+
+
+def friction_fits(pool: Vec, table: FrictionTable, numbers: int) -> bool:
+    """Tell whether the table can be used."""
+    if not (curve_fits(pool, table.curve, numbers) and table.modulo_range >= 0.0):
+        return False
+    return 0 <= table.delay < DELAY_LINE and 0 <= table.lookahead <= LOOKAHEAD_MAX and table.position_delay >= 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .compensations import KINDS, begin_inputs
 from .records import Inputs, Tables
 
 
@@ -11,11 +12,9 @@ def set_initial_inputs(tables: Tables, inputs: Inputs) -> None:
         table = tables.axis[i]
         given = inputs.axis[i]
         given.referenced = True
-        given.cross_enable = table.cross.switching.configured and not table.cross.switching.manual
-        given.plane_enable = table.plane.switching.configured and not table.plane.switching.manual
-        given.crosstalk_enable = table.crosstalk.switching.configured and not table.crosstalk.switching.manual
-        given.leadscrew_enable = table.leadscrew.switching.configured and not table.leadscrew.switching.manual
-        given.friction_enable = table.friction.switching.configured and not table.friction.switching.manual
+        for kind in range(KINDS):
+            given.enable[kind] = table.switching[kind].reserved > 0 and not table.switching[kind].manual
+        begin_inputs(table.compensation, given.compensation)
     for k in range(tables.volumetrics):
         inputs.volumetric[k].enable = tables.volumetric[k].configured and not tables.volumetric[k].manual
         inputs.volumetric[k].factor_x = 1.0

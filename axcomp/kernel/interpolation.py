@@ -2,8 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from .record import Vec, whole
-from .records import Curve, Lookup
+
+
+@dataclass(slots=True)
+class Curve:
+    """Piecewise linear y(x): ``points`` abscissae and as many ordinates in the pool."""
+
+    points: int
+    x: int
+    y: int
+
+
+@dataclass(slots=True)
+class Lookup:
+    """Where a search ended last time."""
+
+    interval: int
 
 
 def find_interval(pool: Vec, first: int, points: int, x: float, lookup: Lookup) -> int:
@@ -62,3 +79,19 @@ def ascending(pool: Vec, first: int, points: int, numbers: int) -> bool:
 def range_fits(first: int, count: int, numbers: int) -> bool:
     """Tell whether so many numbers from ``first`` on lie in the pool."""
     return first >= 0 and 0 < count <= numbers and first <= numbers - count
+
+
+def curve_fits(pool: Vec, curve: Curve, numbers: int) -> bool:
+    """Tell whether a curve lies in the pool and its abscissae ascend."""
+    return ascending(pool, curve.x, curve.points, numbers) and range_fits(curve.y, curve.points, numbers)
+
+
+def move_curve(curve: Curve, by: int) -> None:
+    """Follow the numbers of a curve to another place in the pool."""
+    curve.x += by
+    curve.y += by
+
+
+def forget(lookup: Lookup) -> None:
+    """Start the next search from the front: a new table may be shorter."""
+    lookup.interval = 0

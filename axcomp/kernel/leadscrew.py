@@ -6,28 +6,45 @@ cycles of lr_param.n_backlash_cyc; turning again midway turns round where it is.
 
 from __future__ import annotations
 
-from .interpolation import curve_value, fold, nearest
+from dataclasses import dataclass
+
+from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
+from .motion import Argument, argument_fits, folded, is_motion
 from .record import Vec
-from .records import LeadscrewState, LeadscrewTable
-from .switching import ramp
-
-ROUNDING = 1e-9  # mm or °: a change of the input below this is rounding, not motion
+from .switching import CYCLES_MAX, mapped_step, ramp
 
 
-def begin_leadscrew(table: LeadscrewTable, state: LeadscrewState, position: float) -> None:
-    """Set the state at the start of a simulation: before any motion the positive direction counts."""
-    state.position = position
-    state.backward = False
-    state.reversal_step = table.reversal_cycles
+@dataclass(slots=True)
+class LeadscrewTable:
+    """Errors of an axis over its position; both directions share the interpolation points."""
+
+    argument: Argument  # the axis itself
+    positive: Curve
+    negative: Curve
+    bilateral: bool
+    without_other: bool  # the position does not contain the other corrections (P-COMP-00057)
+    modulo_range: float  # of the axis; 0: it does not count modulo
+    reversal_cycles: int  # of the change-over between the directions, at least 1 (1: at once)
 
 
-def leadscrew_value(
-    pool: Vec, table: LeadscrewTable, state: LeadscrewState, position: float, modulo_range: float
-) -> float:
+@dataclass(slots=True)
+class LeadscrewState:
+    """What the leadscrew compensation remembers."""
+
+    lookup: Lookup
+    started: bool
+    counted: float  # input when it last moved
+    backward: bool  # its last motion was negative
+    reversal_step: int  # reversal_cycles: positive values, 0: negative values
+
+
+def leadscrew_value(pool: Vec, table: LeadscrewTable, state: LeadscrewState, position: float) -> float:
     """Return −Δ at full weight; ``position``: the input of the compensation, whose changes give the direction."""
-    change = nearest(position - state.position, modulo_range)
-    if change > ROUNDING or change < -ROUNDING:
-        state.position = position
+    if not state.started:
+        begin_leadscrew(table, state, position)
+    change = nearest(position - state.counted, table.modulo_range)
+    if is_motion(change):
+        state.counted = position
         state.backward = change < 0.0
     if state.backward:
         if state.reversal_step > 0:
@@ -35,9 +52,7 @@ def leadscrew_value(
     elif state.reversal_step < table.reversal_cycles:
         state.reversal_step += 1
 
-    x = position
-    if table.modulo:
-        x = fold(position, pool[table.positive.x], modulo_range)
+    x = folded(table.argument, position)
     if not table.bilateral or state.reversal_step == table.reversal_cycles:
         return -curve_value(pool, table.positive, x, state.lookup)
     if state.reversal_step == 0:
@@ -45,3 +60,34 @@ def leadscrew_value(
     positive = curve_value(pool, table.positive, x, state.lookup)
     negative = curve_value(pool, table.negative, x, state.lookup)
     return -(negative + ramp(state.reversal_step, table.reversal_cycles) * (positive - negative))
+
+
+def begin_leadscrew(table: LeadscrewTable, state: LeadscrewState, position: float) -> None:
+    """Set the state before the first cycle: before any motion the positive direction counts."""
+    state.started = True
+    state.counted = position
+    state.backward = False
+    state.reversal_step = table.reversal_cycles
+
+
+def adopt_leadscrew(before: LeadscrewTable, after: LeadscrewTable, state: LeadscrewState) -> None:
+    """Go on with another table; a reversal that is under way stays as far as it is."""
+    forget(state.lookup)
+    state.reversal_step = mapped_step(state.reversal_step, before.reversal_cycles, after.reversal_cycles)
+
+
+def move_leadscrew(table: LeadscrewTable, by: int) -> None:
+    """Follow the numbers of the table to another place in the pool."""
+    move_curve(table.positive, by)
+    move_curve(table.negative, by)
+
+
+def leadscrew_fits(pool: Vec, table: LeadscrewTable, axes: int, numbers: int) -> bool:
+    """Tell whether the table can be used."""
+    if not (1 <= table.reversal_cycles <= CYCLES_MAX and table.modulo_range >= 0.0):
+        return False
+    if not (argument_fits(table.argument, axes) and curve_fits(pool, table.positive, numbers)):
+        return False
+    return not table.bilateral or (
+        table.negative.points == table.positive.points and curve_fits(pool, table.negative, numbers)
+    )

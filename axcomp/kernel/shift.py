@@ -6,32 +6,49 @@ absorbed while a release is under way waits for the next one.
 
 from __future__ import annotations
 
-from .records import AxisTable, ShiftState
+from dataclasses import dataclass
+
 from .switching import ramp
 
 
-def release_shift(table: AxisTable, shift: ShiftState, moving: bool) -> None:
-    """Take the shift back over ``shift_cycles`` cycles, from the first motion on."""
-    if moving and shift.step == 0 and (shift.waiting_before_leadscrew != 0.0 or shift.waiting_leadscrew != 0.0):
-        shift.step = table.shift_cycles
-        shift.released_before_leadscrew = shift.waiting_before_leadscrew
-        shift.released_leadscrew = shift.waiting_leadscrew
-        shift.waiting_before_leadscrew = 0.0
-        shift.waiting_leadscrew = 0.0
-    if shift.step > 0:
-        shift.step -= 1
-    weight = ramp(shift.step, table.shift_cycles)
-    shift.before_leadscrew = shift.waiting_before_leadscrew + weight * shift.released_before_leadscrew
-    shift.leadscrew = shift.waiting_leadscrew + weight * shift.released_leadscrew
+@dataclass(slots=True)
+class Shift:
+    """An offset that NO_MOVE has taken out of the output."""
+
+    now: float  # in force
+    waiting: float  # absorbed since the last release began
+    released: float  # as it was when the release began
 
 
-def absorb_before_leadscrew(shift: ShiftState, gain: float) -> None:
-    """Take out of the output what cross, plane or crosstalk gain by being switched."""
-    shift.waiting_before_leadscrew -= gain
-    shift.before_leadscrew -= gain
+@dataclass(slots=True)
+class ShiftState:
+    """The shift of an axis: what it has before the leadscrew, whose input contains it, and behind."""
+
+    before: Shift
+    behind: Shift
+    step: int  # of the release: shift_cycles … 0; 0: none is under way
 
 
-def absorb_leadscrew(shift: ShiftState, gain: float) -> None:
-    """Take out of the output what the leadscrew compensation gains by being switched."""
-    shift.waiting_leadscrew -= gain
-    shift.leadscrew -= gain
+def release_shift(cycles: int, state: ShiftState, moving: bool) -> None:
+    """Take the shift back over so many cycles, from the first motion on."""
+    if moving and state.step == 0 and (state.before.waiting != 0.0 or state.behind.waiting != 0.0):
+        state.step = cycles
+        begin_release(state.before)
+        begin_release(state.behind)
+    if state.step > 0:
+        state.step -= 1
+    weight = ramp(state.step, cycles)
+    state.before.now = state.before.waiting + weight * state.before.released
+    state.behind.now = state.behind.waiting + weight * state.behind.released
+
+
+def begin_release(shift: Shift) -> None:
+    """Let what waits be released."""
+    shift.released = shift.waiting
+    shift.waiting = 0.0
+
+
+def absorb(shift: Shift, gain: float) -> None:
+    """Take out of the output what a compensation gains by being switched."""
+    shift.waiting -= gain
+    shift.now -= gain

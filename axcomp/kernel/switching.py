@@ -1,12 +1,50 @@
 """Switching a compensation on and off: commands, conditions, standstill, and the sin² in between (semantics §4).
 
-w(k) = sin²(π/2 · k/n), k = 1 … n; off runs back; a change of mind midway turns round where it is.
+w(k) = sin²(π/2 · k/n), k = 1 … n; off runs back; a change of mind midway turns round where it is. New values that come
+while a compensation acts blend in along the same sin².
 """
 
 from __future__ import annotations
 
-from .records import SwitchState, SwitchTable
+from dataclasses import dataclass
+from typing import Annotated
+
 from .trigonometry import HALF_PI, sine
+
+NEEDS = 3  # a plane needs two masters and its slave
+CYCLES_MAX = 20  # of a transition (P-COMP-00026, P-AXIS-00243)
+
+
+@dataclass(slots=True)
+class SwitchTable:
+    """How a compensation switches on and off."""
+
+    configured: bool  # there is a table
+    manual: bool  # by command only; reset, program end and release switch off
+    at_standstill: bool  # a command waits until the slave stands still
+    cycles: int  # of the transition, at least 1 (1: at once)
+    blend_cycles: int  # over which new values come in, at least 1 (1: at once)
+    reserved: int  # entries the controller keeps free for its table; 0: the axis does not activate it
+    points_error: int  # of an update that changes what is reserved; 0: it may
+    needs: int  # axes that must be referenced
+    need: Annotated[list[int], NEEDS]
+
+
+@dataclass(slots=True)
+class SwitchState:
+    """Where a compensation stands between off and on, and what it adds."""
+
+    enable: bool  # the input in the last cycle: its edges are the commands
+    command: bool  # what was last commanded
+    granted: bool  # the command, once it may act
+    no_move: bool  # the command came with NO_MOVE
+    step: int  # k of w(k)
+    weight: float  # w(k), 0 … 1
+    absorbed: float  # change of the weight that NO_MOVE takes out of the output, this cycle only
+    contribution: float  # what it adds
+    renewed: bool  # its values are others than in the last cycle
+    difference: float  # what it added before it was renewed, less what it adds now
+    blend_step: int  # of the transition to the new values: blend_cycles … 0
 
 
 def ramp(step: int, cycles: int) -> float:
@@ -22,7 +60,7 @@ def ramp(step: int, cycles: int) -> float:
 def begin_switch(table: SwitchTable, state: SwitchState, enable: bool, ready: bool, released: bool) -> None:
     """Set the state at the start of a simulation: what is on begins at full weight."""
     state.enable = enable
-    state.command = enable and not (table.manual and (released or not ready))
+    state.command = enable and not (table.manual and released)
     state.granted = state.command
     state.no_move = False
     state.step = table.cycles if state.granted and ready else 0
@@ -30,19 +68,17 @@ def begin_switch(table: SwitchTable, state: SwitchState, enable: bool, ready: bo
     state.absorbed = 0.0
 
 
-def heed_command(
-    table: SwitchTable, state: SwitchState, enable: bool, ready: bool, released: bool, no_move: bool
-) -> None:
+def heed_command(table: SwitchTable, state: SwitchState, enable: bool, released: bool, no_move: bool) -> None:
     """Take the command of this cycle, if there is one: an edge of ``enable``, or a manual compensation is released.
 
-    ``ready``: the conditions hold (references). ``released``: reset or program end. ``no_move``: the command is to move
-    nothing, whenever it acts.
+    ``released``: reset, program end or release of the axis. ``no_move``: the command is to move nothing, whenever it
+    acts.
     """
     if enable != state.enable:
         state.enable = enable
         state.command = enable
         state.no_move = no_move
-    if table.manual and state.command and (released or not ready):
+    if table.manual and state.command and released:
         state.command = False
         state.no_move = no_move
 
@@ -50,7 +86,7 @@ def heed_command(
 def advance_switch(table: SwitchTable, state: SwitchState, ready: bool, moving: bool) -> None:
     """Advance the weight by one cycle.
 
-    ``ready``: the conditions hold (references); while they do not, nothing is put out and a command need not wait.
+    ``ready``: the conditions hold (references); while they do not, the weight runs down and a command need not wait.
     ``moving``: the slave is in motion.
     """
     switched = False
@@ -58,21 +94,65 @@ def advance_switch(table: SwitchTable, state: SwitchState, ready: bool, moving: 
         state.granted = state.command
         switched = True
 
-    at_once = switched and state.no_move
+    state.absorbed = 0.0
     step = state.step
-    if not ready:
-        step = 0
-    elif at_once:
+    at_once = switched and state.no_move and ready
+    if at_once:
         step = table.cycles if state.granted else 0
-    elif state.granted:
+    elif state.granted and ready:
         if step < table.cycles:
             step += 1
     elif step > 0:
         step -= 1
-    state.absorbed = 0.0
     if step != state.step:
         weight = ramp(step, table.cycles)
-        if at_once and ready:
+        if at_once:
             state.absorbed = weight - state.weight
         state.step = step
         state.weight = weight
+
+
+def contribution_of(table: SwitchTable, state: SwitchState, value: float) -> float:
+    """Return what a compensation adds in this cycle; ``value``: at full weight."""
+    contribution = state.weight * value
+    if state.renewed:
+        state.renewed = False
+        state.difference = state.contribution - contribution
+        state.blend_step = table.blend_cycles
+    if state.blend_step > 0:
+        state.blend_step -= 1
+        contribution += ramp(state.blend_step, table.blend_cycles) * state.difference
+    state.contribution = contribution
+    return contribution
+
+
+def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) -> None:
+    """Keep a switch where it stands between off and on: its step becomes the one of about the same weight."""
+    state.step = mapped_step(state.step, before.cycles, after.cycles)
+    if not after.configured:
+        state.step = 0
+    state.weight = ramp(state.step, after.cycles)
+    state.absorbed = 0.0
+    state.blend_step = 0
+    state.renewed = state.contribution != 0.0 or state.step > 0
+
+
+def mapped_step(step: int, before: int, after: int) -> int:
+    """Return the step of a transition of another length that is as far: off stays off, on stays on."""
+    if step <= 0 or before <= 0:
+        return 0
+    if step >= before:
+        return after
+    return min(max((2 * step * after + before) // (2 * before), 1), after)
+
+
+def switch_fits(table: SwitchTable, axes: int) -> bool:
+    """Tell whether a switch has transitions of a possible length and needs axes that are there."""
+    if not (1 <= table.cycles <= CYCLES_MAX and 1 <= table.blend_cycles <= CYCLES_MAX):
+        return False
+    if not 0 <= table.needs <= NEEDS:
+        return False
+    for k in range(table.needs):
+        if not 0 <= table.need[k] < axes:
+            return False
+    return True

@@ -24,7 +24,7 @@ from .volumetric_switching import drop_axis, release_shifts, set_error, stop_wit
 LARGEST_TOOL = 1e6  # mm
 
 
-def compensate_volume(tables: Tables, state: State, inputs: Inputs, outputs: Outputs) -> None:
+def compensate_volume(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outputs) -> None:
     """Put the sum of all volumetric corrections and shifts into the state of every axis."""
     for i in range(tables.axis_count):
         state.axis[i].volumetric_correction = 0.0
@@ -39,7 +39,7 @@ def compensate_volume(tables: Tables, state: State, inputs: Inputs, outputs: Out
             volumetric = state.volumetric[k]
             switch_volumetric(table, volumetric, inputs.volumetric[k], inputs, state)
             if volumetric.step > 0:
-                compute_values(tables.pool, table, volumetric, state)
+                compute_values(pool, table, volumetric, state)
             contribute(table, volumetric, state)
             outputs.volumetric[k].active = volumetric.step > 0
 
@@ -48,7 +48,7 @@ def compute_values(pool: Vec, table: VolumetricTable, volumetric: VolumetricStat
     """Compute the corrections at full weight; an error switches off."""
     position = zeros(LETTERS)
     for letter in range(LETTERS):
-        position[letter] = state.axis[table.axis[letter]].setpoint + table.offset[letter]
+        position[letter] = state.motion.axis[table.axis[letter]].setpoint + table.offset[letter]
     errors = zeros(ERRORS)
     errors_at(pool, table, position, errors)
     correction = zeros(LINEAR)

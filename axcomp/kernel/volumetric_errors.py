@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from .interpolation import fold
+from .interpolation import fold, nearest
 from .record import Vec, zeros
 from .volumetric_records import ERRORS, INTERPOLATE_GRID, INTERPOLATE_SCATTER, LETTERS, ErrorBlock, VolumetricTable
 
-FULL_TURN = 360.0
 AT_NODE = 1e-30  # squared distance below which a position is a node
 
 
@@ -30,8 +29,8 @@ def errors_at(
         block = table.block[b]
         for d in range(block.arguments):
             x[d] = position[block.argument[d]]
-            if block.folded[d]:
-                x[d] = fold(x[d], 0.0, FULL_TURN)
+            if block.period[d] > 0.0:
+                x[d] = fold(x[d], block.start[d], block.period[d])
         if block.interpolation == INTERPOLATE_GRID and block.arguments == 1 and block.points[0] > 1:
             add_from_line(pool, block, x[0], errors)
         elif block.interpolation == INTERPOLATE_GRID:
@@ -127,10 +126,10 @@ def add_from_scatter(
 
 
 def square_distance(pool: Vec, block: ErrorBlock, n: int, x: Annotated[list[float], LETTERS]) -> float:
-    """Return the squared distance of a position from node n."""
+    """Return the squared distance of a position from node n, round the circle where there is one."""
     square = 0.0
     for d in range(block.arguments):
-        difference = x[d] - pool[block.knots[0] + n * block.arguments + d]
+        difference = nearest(x[d] - pool[block.knots[0] + n * block.arguments + d], block.period[d])
         square += difference * difference
     return square
 

@@ -76,7 +76,9 @@ def block_fits(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
     if not range_fits(block.values, block.nodes * block.errors, numbers):
         return False
     for d in range(block.arguments):
-        if not 0 <= block.argument[d] < LETTERS:
+        if not 0 <= block.argument[d] < LETTERS or not block.period[d] >= 0.0:
+            return False
+        if block.start[d] - block.start[d] != 0.0 or block.period[d] - block.period[d] != 0.0:  # not finite
             return False
     if block.interpolation == INTERPOLATE_GRID:
         return knots_fit(pool, block, numbers)

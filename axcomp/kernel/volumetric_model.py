@@ -19,7 +19,7 @@ from typing import Annotated
 from .interpolation import fold
 from .record import zeros
 from .trigonometry import HALF_PI, cosine, sine
-from .volumetric_records import ERRORS, ERRORS_OF_AXIS, LETTERS, LINEAR, VolumetricTable
+from .volumetric_records import A0, B0, C0, EA, EB, EC, ERRORS, ERRORS_OF_AXIS, EX, LETTERS, LINEAR, X0, VolumetricTable
 
 DEGREE = HALF_PI / 90.0
 FRAME = 12  # W, then the columns of J: those of X, Y and Z in their order from the tool
@@ -167,12 +167,12 @@ def linear_axis(
     At the workpiece ``q`` and ``along`` both have the opposite sign.
     """
     e = ERRORS_OF_AXIS * letter
-    if errors[e + 3] != 0.0 or errors[e + 4] != 0.0 or errors[e + 5] != 0.0:
-        rotation(errors[e + 3], errors[e + 4], errors[e + 5], m)
+    if errors[e + A0] != 0.0 or errors[e + B0] != 0.0 or errors[e + C0] != 0.0:
+        rotation(errors[e + A0], errors[e + B0], errors[e + C0], m)
         turn(m, along)
     for d in range(LINEAR):
-        o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d])
-    rotation(errors[e + 9], errors[e + 10], errors[e + 11], m)
+        o[d] = along[d] * q + (errors[e + X0 + d] + errors[e + EX + d])
+    rotation(errors[e + EA], errors[e + EB], errors[e + EC], m)
 
 
 def nominal_rotary_axis(
@@ -203,23 +203,25 @@ def rotary_axis(
     tilt = zeros(9)
     if table.alternative:
         # L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …).
-        rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt)
+        rotation(errors[e + A0], errors[e + B0], errors[e + C0], tilt)
         turn(tilt, axis)
         rotation_about(axis, q, m)
         for d in range(LINEAR):
-            o[d] = -errors[e + d]
+            o[d] = -errors[e + X0 + d]
         turn(m, o)
         for d in range(LINEAR):
-            o[d] += errors[e + d]
-        rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt)
+            o[d] += errors[e + X0 + d]
+        rotation(errors[e + EA], errors[e + EB], errors[e + EC], tilt)
         turn(tilt, o)
         for d in range(LINEAR):
-            o[d] += errors[e + 6 + d]
+            o[d] += errors[e + EX + d]
     else:
         rotation_about(axis, q, m)
-        rotation(errors[e + 3] + errors[e + 9], errors[e + 4] + errors[e + 10], errors[e + 5] + errors[e + 11], tilt)
+        rotation(
+            errors[e + A0] + errors[e + EA], errors[e + B0] + errors[e + EB], errors[e + C0] + errors[e + EC], tilt
+        )
         for d in range(LINEAR):
-            o[d] = errors[e + d] + errors[e + 6 + d]
+            o[d] = errors[e + X0 + d] + errors[e + EX + d]
     multiply_from_left(tilt, m)
     about_center(table, letter, m, o)
 

@@ -1,7 +1,7 @@
 """Records of the volumetric compensation. Lengths in mm, positions of rotary axes in °, angular errors in rad.
 
-An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Error ``ERRORS_OF_AXIS · letter + k`` is
-X0 Y0 Z0 A0 B0 C0 (k = 0 … 5) or EX EY EZ EA EB EC (k = 6 … 11) of that axis.
+An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Its twelve errors begin at
+``ERRORS_OF_AXIS · letter``: the position errors X0 Y0 Z0 A0 B0 C0, then the component errors EX EY EZ EA EB EC.
 """
 
 from __future__ import annotations
@@ -14,7 +14,16 @@ MEMBERS = 32
 LINEAR = 3
 LETTERS = 6
 ERRORS_OF_AXIS = 12
-ERRORS = 72
+ERRORS = LETTERS * ERRORS_OF_AXIS
+
+X0 = 0  # first of the position errors of an axis, lengths: X0, Y0, Z0
+A0 = 3  # and angles: A0, B0, C0
+B0 = 4
+C0 = 5
+EX = 6  # first of its component errors: EX, EY, EZ
+EA = 9  # and EA, EB, EC
+EB = 10
+EC = 11
 
 INTERPOLATE_GRID = 0
 INTERPOLATE_SCATTER = 1
@@ -41,7 +50,8 @@ class ErrorBlock:
     values: int
     arguments: int  # 0 … 6
     argument: Annotated[list[int], LETTERS]  # letter of each
-    folded: Annotated[list[bool], LETTERS]  # its position is folded into 0° … 360°
+    start: Annotated[list[float], LETTERS]  # of the turn that its position is folded into
+    period: Annotated[list[float], LETTERS]  # length of that turn; 0: not folded
     points: Annotated[list[int], LETTERS]  # of the grid along it
     knots: Annotated[list[int], LETTERS]  # where they are in the pool, ascending
     steps: Annotated[list[int], LETTERS]  # where the pool has for each of points + 1 equal steps the knot before it

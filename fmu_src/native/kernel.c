@@ -17,33 +17,254 @@ static inline double whole(double x) { return floor(x) + 0.0; }
 static inline double double_min(double a, double b) { return b < a ? b : a; }
 static inline double double_max(double a, double b) { return b > a ? b : a; }
 static inline int32_t int_min(int32_t a, int32_t b) { return b < a ? b : a; }
+static inline int32_t int_max(int32_t a, int32_t b) { return b > a ? b : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
-/* ================================= initial ==================================
+/* =============================== trigonometry ===============================
  *
- * The inputs before anybody sets them: referenced, and enabled what activates automatically.
+ * Sine and cosine that give the same bits everywhere: the C libraries' own differ in the last place.
+ *
+ * The polynomials are the classic minimax ones for |r| ≤ π/4 (error below one unit in the last place); the argument is
+ * reduced by multiples of π/2, taken in three parts.
  */
 
-/* Set inputs that are all 0 to what they are at the start. */
-void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs)
+/* Return sin r for |r| ≤ π/4. */
+static double sine_polynomial(double r)
 {
-    for (int32_t i = 0; i < tables->axis_count; i++) {
-        const AxisTable *table = &tables->axis[i];
-        AxisInputs *given = &inputs->axis[i];
-        given->referenced = true;
-        given->cross_enable = table->cross.switching.configured && !table->cross.switching.manual;
-        given->plane_enable = table->plane.switching.configured && !table->plane.switching.manual;
-        given->crosstalk_enable = table->crosstalk.switching.configured && !table->crosstalk.switching.manual;
-        given->leadscrew_enable = table->leadscrew.switching.configured && !table->leadscrew.switching.manual;
-        given->friction_enable = table->friction.switching.configured && !table->friction.switching.manual;
+    double z = r * r;
+    double p = 2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
+    p = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * p);
+    return r + z * r * (-1.66666666666666324348e-01 + z * p);
+}
+
+/* Return cos r for |r| ≤ π/4. */
+static double cosine_polynomial(double r)
+{
+    double z = r * r;
+    double p = -2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 - z * 1.13596475577881948265e-11);
+    p = 4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * (2.48015872894767294178e-05 + z * p));
+    double h = 0.5 * z;
+    double w = 1.0 - h;
+    return w + (1.0 - w - h + z * z * p);
+}
+
+/* Return sin(x + quarter · π/2) for |x| < 10⁵ rad. */
+static double sine_of_quarter(double x, int32_t quarter)
+{
+    double turns = whole(x * TWO_OVER_PI + 0.5);
+    double r = x - turns * HALF_PI_HEAD;
+    r = r - turns * HALF_PI_MIDDLE;
+    r = r - turns * HALF_PI_TAIL;
+    int32_t q = ((int32_t)turns + quarter) & 3;
+    if (q == 0) {
+        return sine_polynomial(r);
     }
-    for (int32_t k = 0; k < tables->volumetrics; k++) {
-        inputs->volumetric[k].enable = tables->volumetric[k].configured && !tables->volumetric[k].manual;
-        inputs->volumetric[k].factor_x = 1.0;
-        inputs->volumetric[k].factor_y = 1.0;
-        inputs->volumetric[k].factor_z = 1.0;
+    if (q == 1) {
+        return cosine_polynomial(r);
     }
+    if (q == 2) {
+        return -sine_polynomial(r);
+    }
+    return -cosine_polynomial(r);
+}
+
+/* Return sin x, x in rad, |x| < 10⁵. */
+static double sine(double x)
+{
+    if (-QUARTER_PI < x && x < QUARTER_PI) {
+        return sine_polynomial(x);
+    }
+    return sine_of_quarter(x, 0);
+}
+
+/* Return cos x, x in rad, |x| < 10⁵. */
+static double cosine(double x)
+{
+    if (-QUARTER_PI < x && x < QUARTER_PI) {
+        return cosine_polynomial(x);
+    }
+    return sine_of_quarter(x, 1);
+}
+
+/* ================================ switching =================================
+ *
+ * Switching a compensation on and off: commands, conditions, standstill, and the sin² in between (semantics §4).
+ *
+ * w(k) = sin²(π/2 · k/n), k = 1 … n; off runs back; a change of mind midway turns round where it is. New values that come
+ * while a compensation acts blend in along the same sin².
+ */
+
+/* Return sin²(π/2 · step/cycles), 0 ≤ step ≤ cycles. */
+static double ramp(int32_t step, int32_t cycles)
+{
+    if (step >= cycles) {
+        return 1.0;
+    }
+    if (step <= 0) {
+        return 0.0;
+    }
+    double s = sine(HALF_PI * step / cycles);
+    return s * s;
+}
+
+/* Set the state at the start of a simulation: what is on begins at full weight. */
+static void begin_switch(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released)
+{
+    state->enable = enable;
+    state->command = enable && !(table->manual && released);
+    state->granted = state->command;
+    state->no_move = false;
+    state->step = state->granted && ready ? table->cycles : 0;
+    state->weight = state->step > 0 ? 1.0 : 0.0;
+    state->absorbed = 0.0;
+}
+
+/* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
+ *
+ * `released`: reset, program end or release of the axis. `no_move`: the command is to move nothing, whenever it
+ * acts.
+ */
+static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool released, bool no_move)
+{
+    if (enable != state->enable) {
+        state->enable = enable;
+        state->command = enable;
+        state->no_move = no_move;
+    }
+    if (table->manual && state->command && released) {
+        state->command = false;
+        state->no_move = no_move;
+    }
+}
+
+/* Advance the weight by one cycle.
+ *
+ * `ready`: the conditions hold (references); while they do not, the weight runs down and a command need not wait.
+ * `moving`: the slave is in motion.
+ */
+static void advance_switch(const SwitchTable *table, SwitchState *state, bool ready, bool moving)
+{
+    bool switched = false;
+    if (state->command != state->granted && !(moving && ready && table->at_standstill)) {
+        state->granted = state->command;
+        switched = true;
+    }
+
+    state->absorbed = 0.0;
+    int32_t step = state->step;
+    bool at_once = switched && state->no_move && ready;
+    if (at_once) {
+        step = state->granted ? table->cycles : 0;
+    } else if (state->granted && ready) {
+        if (step < table->cycles) {
+            step += 1;
+        }
+    } else if (step > 0) {
+        step -= 1;
+    }
+    if (step != state->step) {
+        double weight = ramp(step, table->cycles);
+        if (at_once) {
+            state->absorbed = weight - state->weight;
+        }
+        state->step = step;
+        state->weight = weight;
+    }
+}
+
+/* Return what a compensation adds in this cycle; `value`: at full weight. */
+static double contribution_of(const SwitchTable *table, SwitchState *state, double value)
+{
+    double contribution = state->weight * value;
+    if (state->renewed) {
+        state->renewed = false;
+        state->difference = state->contribution - contribution;
+        state->blend_step = table->blend_cycles;
+    }
+    if (state->blend_step > 0) {
+        state->blend_step -= 1;
+        contribution += ramp(state->blend_step, table->blend_cycles) * state->difference;
+    }
+    state->contribution = contribution;
+    return contribution;
+}
+
+/* Return the step of a transition of another length that is as far: off stays off, on stays on. */
+static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
+{
+    if (step <= 0 || before <= 0) {
+        return 0;
+    }
+    if (step >= before) {
+        return after;
+    }
+    return int_min(int_max(int_floor_div(2 * step * after + before, 2 * before), 1), after);
+}
+
+/* Keep a switch where it stands between off and on: its step becomes the one of about the same weight. */
+static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state)
+{
+    state->step = mapped_step(state->step, before->cycles, after->cycles);
+    if (!after->configured) {
+        state->step = 0;
+    }
+    state->weight = ramp(state->step, after->cycles);
+    state->absorbed = 0.0;
+    state->blend_step = 0;
+    state->renewed = state->contribution != 0.0 || state->step > 0;
+}
+
+/* Tell whether a switch has transitions of a possible length and needs axes that are there. */
+static bool switch_fits(const SwitchTable *table, int32_t axes)
+{
+    if (!(1 <= table->cycles && table->cycles <= CYCLES_MAX
+            && 1 <= table->blend_cycles && table->blend_cycles <= CYCLES_MAX)) {
+        return false;
+    }
+    if (!(0 <= table->needs && table->needs <= NEEDS)) {
+        return false;
+    }
+    for (int32_t k = 0; k < table->needs; k++) {
+        if (!(0 <= table->need[k] && table->need[k] < axes)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ================================= backlash =================================
+ *
+ * Backlash compensation (lr_param.anwahl_losekomp, getriebe[i].lose): the drive goes further after a reversal. Added.
+ *
+ * The drive moves before the slide does. Mode 1: right after a motion in positive direction, after one in negative
+ * direction −lose. Mode 2: right after negative motion, after positive motion +lose. The change runs by sin² over
+ * lr_param.n_backlash_cyc cycles; turning again midway turns round where it is.
+ */
+
+/* Return the correction at full weight; `direction`: of the axis' last motion, 0 before any. */
+static double backlash_value(const BacklashTable *table, BacklashState *state, int32_t direction)
+{
+    if (direction == table->direction) {
+        if (state->step < table->reversal_cycles) {
+            state->step += 1;
+        }
+    } else if (state->step > 0) {
+        state->step -= 1;
+    }
+    return table->amount * ramp(state->step, table->reversal_cycles);
+}
+
+/* Go on with other lists; a reversal that is under way stays as far as it is. */
+static void adopt_backlash(const BacklashTable *before, const BacklashTable *after, BacklashState *state)
+{
+    state->step = mapped_step(state->step, before->reversal_cycles, after->reversal_cycles);
+}
+
+/* Tell whether the table can be used. */
+static bool backlash_fits(const BacklashTable *table)
+{
+    return 1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX && table->amount - table->amount == 0.0;
 }
 
 /* ============================== interpolation ===============================
@@ -122,6 +343,115 @@ static bool ascending(const double *pool, int32_t first, int32_t points, int32_t
         }
     }
     return true;
+}
+
+/* Tell whether a curve lies in the pool and its abscissae ascend. */
+static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
+{
+    return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
+}
+
+/* Follow the numbers of a curve to another place in the pool. */
+static void move_curve(Curve *curve, int32_t by)
+{
+    curve->x += by;
+    curve->y += by;
+}
+
+/* Start the next search from the front: a new table may be shorter. */
+static void forget(Lookup *lookup)
+{
+    lookup->interval = 0;
+}
+
+/* ================================== motion ==================================
+ *
+ * How the axes move: their last usable setpoints, and the one decision whether an axis stands or which way it goes.
+ *
+ * An axis stands while neither its velocity nor the summed changes of its setpoint reach `STANDSTILL` in a cycle: what
+ * rounding leaves behind is no motion (semantics §4).
+ */
+
+/* Tell whether a change of position is more than rounding. */
+static bool is_motion(double change)
+{
+    return change >= STANDSTILL || change <= -STANDSTILL;
+}
+
+/* Take over a setpoint and a velocity, and decide whether and which way the axis moves. */
+static void move_axis(AxisMotion *motion, double setpoint, double velocity, double cycle_time, double modulo_range)
+{
+    double way = velocity * cycle_time;
+    double change = nearest(setpoint - motion->counted, modulo_range);
+    motion->sign = 0;
+    if (way >= STANDSTILL) {
+        motion->sign = 1;
+    } else if (way <= -STANDSTILL) {
+        motion->sign = -1;
+    }
+    motion->moving = motion->sign != 0 || is_motion(change);
+    if (motion->moving) {
+        motion->direction = motion->sign;
+        if (motion->sign == 0) {
+            motion->direction = change > 0.0 ? 1 : -1;
+        }
+        motion->counted = setpoint;
+    }
+    motion->setpoint = setpoint;
+    motion->velocity = velocity;
+}
+
+/* Return a position within the turn of a table. */
+static double folded(const Argument *argument, double position)
+{
+    if (argument->period > 0.0) {
+        return fold(position, argument->start, argument->period);
+    }
+    return position;
+}
+
+/* Return the raw setpoint of an axis as a table looks it up. */
+static double position_of(const Motion *motion, const Argument *argument)
+{
+    return folded(argument, motion->axis[argument->axis].setpoint);
+}
+
+/* Tell whether an argument means an axis and a turn. */
+static bool argument_fits(const Argument *argument, int32_t axes)
+{
+    if (argument->start - argument->start != 0.0 || argument->period - argument->period != 0.0) {  /* not finite */
+        return false;
+    }
+    return 0 <= argument->axis && argument->axis < axes && argument->period >= 0.0;
+}
+
+/* ================================== cross ===================================
+ *
+ * Cross compensation (kw.crosscomp): the slave is corrected by what stands at the master's raw setpoint. Added.
+ */
+
+/* Return the correction at full weight. */
+static double cross_value(const double *pool, const CrossTable *table, CrossState *state, const Motion *motion)
+{
+    return curve_value(pool, &table->curve, position_of(motion, &table->master), &state->lookup);
+}
+
+/* Go on with another table. */
+static void adopt_cross(CrossState *state)
+{
+    forget(&state->lookup);
+}
+
+/* Follow the numbers of the table to another place in the pool. */
+static void move_cross(CrossTable *table, int32_t by)
+{
+    move_curve(&table->curve, by);
+}
+
+/* Tell whether the table can be used. */
+static bool cross_fits(const double *pool, const CrossTable *table, int32_t axes, int32_t numbers)
+{
+    return argument_fits(&table->master, axes) && curve_fits(pool, &table->curve, numbers);
 }
 
 /* ================================ crosstalk =================================
@@ -235,13 +565,9 @@ static double test_value(const double *pool, const CrosstalkTable *table, Crosst
 
 /* Return the correction at full weight, from the master's motion and the adaptation axes' positions. */
 static double crosstalk_value(const double *pool, const CrosstalkTable *table, CrosstalkState *state,
-        double acceleration, double velocity, double position1, double position2)
+        const Motion *motion)
 {
-    if (velocity > 0.0) {
-        state->negative = false;
-    } else if (velocity < 0.0) {
-        state->negative = true;
-    }
+    double acceleration = motion->axis[table->master].acceleration;
     if (table->variant == CROSSTALK_CURVE) {
         return curve_value(pool, &table->curve, acceleration, &state->lookup);
     }
@@ -252,238 +578,105 @@ static double crosstalk_value(const double *pool, const CrosstalkTable *table, C
         block = 2;
         share = acceleration / table->deceleration;
     }
-    if (table->velocity_dependent && state->negative) {
+    if (table->velocity_dependent && motion->axis[table->master].direction < 0) {
         block = block + 1;
     }
+    double position1 = position_of(motion, &table->adaptation1);
+    double position2 = position_of(motion, &table->adaptation2);
     double value = test_value(pool, table, state, table->values + block * table->tests, position1, position2);
     return value * double_min(share, 1.0);
 }
 
-/* =============================== trigonometry ===============================
- *
- * Sine and cosine that give the same bits everywhere: the C libraries' own differ in the last place.
- *
- * The polynomials are the classic minimax ones for |r| ≤ π/4 (error below one unit in the last place); the argument is
- * reduced by multiples of π/2, taken in three parts.
- */
-
-/* Return sin r for |r| ≤ π/4. */
-static double sine_polynomial(double r)
+/* Go on with another table. */
+static void adopt_crosstalk(CrosstalkState *state)
 {
-    double z = r * r;
-    double p = 2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
-    p = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * p);
-    return r + z * r * (-1.66666666666666324348e-01 + z * p);
+    forget(&state->lookup);
+    forget(&state->lookup2);
 }
 
-/* Return cos r for |r| ≤ π/4. */
-static double cosine_polynomial(double r)
+/* Follow the numbers of the table to another place in the pool. */
+static void move_crosstalk(CrosstalkTable *table, int32_t by)
 {
-    double z = r * r;
-    double p = -2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 - z * 1.13596475577881948265e-11);
-    p = 4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * (2.48015872894767294178e-05 + z * p));
-    double h = 0.5 * z;
-    double w = 1.0 - h;
-    return w + (1.0 - w - h + z * z * p);
+    move_curve(&table->curve, by);
+    table->values += by;
+    table->x1 += by;
+    table->x2 += by;
+    table->triangle += by;
+    table->edge += by;
 }
 
-/* Return sin(x + quarter · π/2) for |x| < 10⁵ rad. */
-static double sine_of_quarter(double x, int32_t quarter)
+/* Tell whether the grid of tests can be used. */
+static bool test_grid_fits(const double *pool, const CrosstalkTable *table, int32_t numbers)
 {
-    double turns = whole(x * TWO_OVER_PI + 0.5);
-    double r = x - turns * HALF_PI_HEAD;
-    r = r - turns * HALF_PI_MIDDLE;
-    r = r - turns * HALF_PI_TAIL;
-    int32_t q = ((int32_t)turns + quarter) & 3;
-    if (q == 0) {
-        return sine_polynomial(r);
+    if (!(1 < table->points1 && table->points1 <= table->tests
+            && 1 < table->points2 && table->points2 <= table->tests)) {
+        return false;
     }
-    if (q == 1) {
-        return cosine_polynomial(r);
+    if (table->points2 != int_floor_div(table->tests, table->points1)
+            || int_floor_mod(table->tests, table->points1) != 0) {
+        return false;
     }
-    if (q == 2) {
-        return -sine_polynomial(r);
-    }
-    return -cosine_polynomial(r);
+    return ascending(pool, table->x1, table->points1, numbers) && ascending(pool, table->x2, table->points2, numbers);
 }
 
-/* Return sin x, x in rad, |x| < 10⁵. */
-static double sine(double x)
+/* Tell whether the triangles and the hull of scattered tests can be used. */
+static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32_t numbers)
 {
-    if (-QUARTER_PI < x && x < QUARTER_PI) {
-        return sine_polynomial(x);
+    if (!(range_fits(table->x1, table->tests, numbers) && range_fits(table->x2, table->tests, numbers))) {
+        return false;
     }
-    return sine_of_quarter(x, 0);
-}
-
-/* Return cos x, x in rad, |x| < 10⁵. */
-static double cosine(double x)
-{
-    if (-QUARTER_PI < x && x < QUARTER_PI) {
-        return cosine_polynomial(x);
+    if (!(1 <= table->triangles && table->triangles <= int_floor_div(numbers, 3)
+            && 1 <= table->edges && table->edges <= int_floor_div(numbers, 2))) {
+        return false;
     }
-    return sine_of_quarter(x, 1);
-}
-
-/* ================================ switching =================================
- *
- * Switching a compensation on and off: commands, conditions, standstill, and the sin² in between (semantics §4).
- *
- * w(k) = sin²(π/2 · k/n), k = 1 … n; off runs back; a change of mind midway turns round where it is.
- */
-
-/* Return sin²(π/2 · step/cycles), 0 ≤ step ≤ cycles. */
-static double ramp(int32_t step, int32_t cycles)
-{
-    if (step >= cycles) {
-        return 1.0;
+    if (!range_fits(table->triangle, 3 * table->triangles, numbers)) {
+        return false;
     }
-    if (step <= 0) {
-        return 0.0;
+    if (!range_fits(table->edge, 2 * table->edges, numbers)) {
+        return false;
     }
-    double s = sine(HALF_PI * step / cycles);
-    return s * s;
-}
-
-/* Set the state at the start of a simulation: what is on begins at full weight. */
-static void begin_switch(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released)
-{
-    state->enable = enable;
-    state->command = enable && !(table->manual && (released || !ready));
-    state->granted = state->command;
-    state->no_move = false;
-    state->step = state->granted && ready ? table->cycles : 0;
-    state->weight = state->step > 0 ? 1.0 : 0.0;
-    state->absorbed = 0.0;
-}
-
-/* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
- *
- * `ready`: the conditions hold (references). `released`: reset or program end. `no_move`: the command is to move
- * nothing, whenever it acts.
- */
-static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released,
-        bool no_move)
-{
-    if (enable != state->enable) {
-        state->enable = enable;
-        state->command = enable;
-        state->no_move = no_move;
-    }
-    if (table->manual && state->command && (released || !ready)) {
-        state->command = false;
-        state->no_move = no_move;
-    }
-}
-
-/* Advance the weight by one cycle.
- *
- * `ready`: the conditions hold (references); while they do not, nothing is put out and a command need not wait.
- * `moving`: the slave is in motion.
- */
-static void advance_switch(const SwitchTable *table, SwitchState *state, bool ready, bool moving)
-{
-    bool switched = false;
-    if (state->command != state->granted && !(moving && ready && table->at_standstill)) {
-        state->granted = state->command;
-        switched = true;
-    }
-
-    bool at_once = switched && state->no_move;
-    int32_t step = state->step;
-    if (!ready) {
-        step = 0;
-    } else if (at_once) {
-        step = state->granted ? table->cycles : 0;
-    } else if (state->granted) {
-        if (step < table->cycles) {
-            step += 1;
+    for (int32_t k = 0; k < 3 * table->triangles; k++) {
+        if (!(0.0 <= pool[table->triangle + k] && pool[table->triangle + k] < table->tests)) {
+            return false;
         }
-    } else if (step > 0) {
-        step -= 1;
     }
-    state->absorbed = 0.0;
-    if (step != state->step) {
-        double weight = ramp(step, table->cycles);
-        if (at_once && ready) {
-            state->absorbed = weight - state->weight;
+    for (int32_t k = 0; k < 2 * table->edges; k++) {
+        if (!(0.0 <= pool[table->edge + k] && pool[table->edge + k] < table->tests)) {
+            return false;
         }
-        state->step = step;
-        state->weight = weight;
     }
+    return true;
 }
 
-/* ================================ activation ================================
- *
- * Which compensations of an axis are on: the conditions of each kind, and the commands of its enable input.
- *
- * Leadscrew: the axis is referenced. Cross: its master is. Plane: both masters and the slave are. Crosstalk: the
- * adaptation axes are. Friction acts whether referenced or not (semantics §5–§9). A manual compensation is released with
- * its axis: it needs the axis' own reference too.
- */
-
-/* Advance one switch by one cycle, or set it in the first. */
-static void advance(const SwitchTable *table, SwitchState *state, const AxisState *axis, const AxisInputs *given,
-        bool enable, bool ready, bool released)
+/* Tell whether the table can be used. */
+static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int32_t axes, int32_t numbers)
 {
-    bool usable = ready && (given->referenced || !table->manual);
-    if (!axis->started) {
-        begin_switch(table, state, enable, usable, released);
-    } else if (axis->held) {
-        heed_command(table, state, enable, usable, released, given->no_move);
-    } else {
-        heed_command(table, state, enable, usable, released, given->no_move);
-        advance_switch(table, state, usable, axis->moving);
+    if (!(0 <= table->master && table->master < axes)) {
+        return false;
     }
-}
-
-/* Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
- *
- * While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
- */
-static void activate(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given)
-{
-    bool released = inputs->reset || inputs->program_end;
-    if (table->cross.switching.configured) {
-        bool ready = inputs->axis[table->cross.master].referenced;
-        advance(&table->cross.switching, &axis->cross.switching, axis, given, given->cross_enable, ready, released);
+    if (!(argument_fits(&table->adaptation1, axes) && argument_fits(&table->adaptation2, axes))) {
+        return false;
     }
-    if (table->plane.switching.configured) {
-        bool ready = inputs->axis[table->plane.master1].referenced && inputs->axis[table->plane.master2].referenced;
-        ready = ready && given->referenced;
-        advance(&table->plane.switching, &axis->plane.switching, axis, given, given->plane_enable, ready, released);
+    if (table->variant == CROSSTALK_CURVE) {
+        return curve_fits(pool, &table->curve, numbers);
     }
-    if (table->crosstalk.switching.configured) {
-        bool ready = true;
-        if (table->crosstalk.variant >= CROSSTALK_LINE) {
-            ready = inputs->axis[table->crosstalk.adaptation1].referenced;
-        }
-        if (table->crosstalk.variant >= CROSSTALK_GRID) {
-            ready = ready && inputs->axis[table->crosstalk.adaptation2].referenced;
-        }
-        advance(&table->crosstalk.switching, &axis->crosstalk.switching, axis, given, given->crosstalk_enable, ready,
-                released);
+    if (!(CROSSTALK_CURVE < table->variant && table->variant <= CROSSTALK_TRIANGLES
+            && 1 <= table->tests && table->tests <= int_floor_div(numbers, 4))) {
+        return false;
     }
-    if (table->leadscrew.switching.configured) {
-        bool ready = given->referenced;
-        advance(&table->leadscrew.switching, &axis->leadscrew.switching, axis, given, given->leadscrew_enable, ready,
-                released);
+    if (!(table->acceleration > 0.0 && table->deceleration < 0.0)) {
+        return false;
     }
-    if (table->friction.switching.configured) {
-        advance(&table->friction.switching, &axis->friction.switching, axis, given, given->friction_enable, true,
-                released);
+    if (!range_fits(table->values, 4 * table->tests, numbers)) {
+        return false;
     }
-}
-
-/* ================================== cross ===================================
- *
- * Cross compensation (kw.crosscomp): the slave is corrected by what stands at the master's raw setpoint. Added.
- */
-
-/* Return the correction at full weight; `master` is the master's raw setpoint. */
-static double cross_value(const double *pool, const CrossTable *table, CrossState *state, double master)
-{
-    return curve_value(pool, &table->curve, master, &state->lookup);
+    if (table->variant == CROSSTALK_LINE) {
+        return table->tests > 1 && ascending(pool, table->x1, table->tests, numbers);
+    }
+    if (table->variant == CROSSTALK_GRID) {
+        return test_grid_fits(pool, table, numbers);
+    }
+    return table->variant != CROSSTALK_TRIANGLES || triangles_fit(pool, table, numbers);
 }
 
 /* ================================= friction =================================
@@ -496,10 +689,10 @@ static double cross_value(const double *pool, const CrossTable *table, CrossStat
  */
 
 /* Return w_after = min(1, |s − s_reversal| / position_delay); once 1 it stays until the next reversal. */
-static double build_up(const FrictionTable *table, FrictionState *state, double position, double modulo_range)
+static double build_up(const FrictionTable *table, FrictionState *state, double position)
 {
     if (!state->built_up) {
-        double distance = fabs(nearest(position - state->reversal_position, modulo_range));
+        double distance = fabs(nearest(position - state->reversal_position, table->modulo_range));
         if (distance < table->position_delay) {
             return distance / table->position_delay;
         }
@@ -544,37 +737,55 @@ static double delayed(const FrictionTable *table, FrictionState *state, double c
 }
 
 /* Return the current of this cycle at full weight, and keep the delay line. */
-static double friction_current(const double *pool, const FrictionTable *table, FrictionState *state, double position,
-        double velocity, double acceleration, double cycle_time, double modulo_range)
+static double friction_current(const double *pool, const FrictionTable *table, FrictionState *state,
+        const AxisMotion *motion, double cycle_time)
 {
-    int32_t sign = 0;
-    if (velocity > 0.0) {
-        sign = 1;
-    } else if (velocity < 0.0) {
-        sign = -1;
-    }
+    int32_t sign = motion->sign;
     if (sign != 0 && sign != state->direction) {
         if (table->delay >= table->lookahead) {
             decay_delayed(table, state);
         }
         state->direction = sign;
-        state->reversal_position = position;
+        state->reversal_position = motion->setpoint;
         state->built_up = false;
         state->since_reversal = 0;
     }
 
     double current = 0.0;
     if (sign != 0) {
-        current = table->scaling * sign * curve_value(pool, &table->curve, fabs(velocity), &state->lookup);
-        current = current * build_up(table, state, position, modulo_range);
+        current = table->scaling * sign * curve_value(pool, &table->curve, fabs(motion->velocity), &state->lookup);
+        current = current * build_up(table, state, motion->setpoint);
         if (table->delay < table->lookahead) {
-            current = current * decay_predicted(table, velocity, acceleration, cycle_time);
+            current = current * decay_predicted(table, motion->velocity, motion->acceleration, cycle_time);
         }
     }
     if (state->since_reversal < table->lookahead) {
         state->since_reversal += 1;
     }
     return delayed(table, state, current);
+}
+
+/* Go on with another table. */
+static void adopt_friction(const FrictionTable *after, FrictionState *state)
+{
+    forget(&state->lookup);
+    state->since_reversal = int_min(state->since_reversal, after->lookahead);
+}
+
+/* Follow the numbers of the table to another place in the pool. */
+static void move_friction(FrictionTable *table, int32_t by)
+{
+    move_curve(&table->curve, by);
+}
+
+/* Tell whether the table can be used. */
+static bool friction_fits(const double *pool, const FrictionTable *table, int32_t numbers)
+{
+    if (!(curve_fits(pool, &table->curve, numbers) && table->modulo_range >= 0.0)) {
+        return false;
+    }
+    return 0 <= table->delay && table->delay < DELAY_LINE && 0 <= table->lookahead && table->lookahead <= LOOKAHEAD_MAX
+            && table->position_delay >= 0.0;
 }
 
 /* ================================ leadscrew =================================
@@ -585,21 +796,24 @@ static double friction_current(const double *pool, const FrictionTable *table, F
  * cycles of lr_param.n_backlash_cyc; turning again midway turns round where it is.
  */
 
-/* Set the state at the start of a simulation: before any motion the positive direction counts. */
+/* Set the state before the first cycle: before any motion the positive direction counts. */
 static void begin_leadscrew(const LeadscrewTable *table, LeadscrewState *state, double position)
 {
-    state->position = position;
+    state->started = true;
+    state->counted = position;
     state->backward = false;
     state->reversal_step = table->reversal_cycles;
 }
 
 /* Return −Δ at full weight; `position`: the input of the compensation, whose changes give the direction. */
-static double leadscrew_value(const double *pool, const LeadscrewTable *table, LeadscrewState *state, double position,
-        double modulo_range)
+static double leadscrew_value(const double *pool, const LeadscrewTable *table, LeadscrewState *state, double position)
 {
-    double change = nearest(position - state->position, modulo_range);
-    if (change > ROUNDING || change < -ROUNDING) {
-        state->position = position;
+    if (!state->started) {
+        begin_leadscrew(table, state, position);
+    }
+    double change = nearest(position - state->counted, table->modulo_range);
+    if (is_motion(change)) {
+        state->counted = position;
         state->backward = change < 0.0;
     }
     if (state->backward) {
@@ -610,10 +824,7 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
         state->reversal_step += 1;
     }
 
-    double x = position;
-    if (table->modulo) {
-        x = fold(position, pool[table->positive.x], modulo_range);
-    }
+    double x = folded(&table->argument, position);
     if (!table->bilateral || state->reversal_step == table->reversal_cycles) {
         return -curve_value(pool, &table->positive, x, &state->lookup);
     }
@@ -623,6 +834,33 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
     double positive = curve_value(pool, &table->positive, x, &state->lookup);
     double negative = curve_value(pool, &table->negative, x, &state->lookup);
     return -(negative + ramp(state->reversal_step, table->reversal_cycles) * (positive - negative));
+}
+
+/* Go on with another table; a reversal that is under way stays as far as it is. */
+static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *after, LeadscrewState *state)
+{
+    forget(&state->lookup);
+    state->reversal_step = mapped_step(state->reversal_step, before->reversal_cycles, after->reversal_cycles);
+}
+
+/* Follow the numbers of the table to another place in the pool. */
+static void move_leadscrew(LeadscrewTable *table, int32_t by)
+{
+    move_curve(&table->positive, by);
+    move_curve(&table->negative, by);
+}
+
+/* Tell whether the table can be used. */
+static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int32_t axes, int32_t numbers)
+{
+    if (!(1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX && table->modulo_range >= 0.0)) {
+        return false;
+    }
+    if (!(argument_fits(&table->argument, axes) && curve_fits(pool, &table->positive, numbers))) {
+        return false;
+    }
+    return !table->bilateral
+            || (table->negative.points == table->positive.points && curve_fits(pool, &table->negative, numbers));
 }
 
 /* ================================== plane ===================================
@@ -648,10 +886,10 @@ static int32_t grid_cell(double u, int32_t points)
 }
 
 /* Return the correction at full weight at the masters' raw setpoints; outside the grid the edge is held. */
-static double plane_value(const double *pool, const PlaneTable *table, double master1, double master2)
+static double plane_value(const double *pool, const PlaneTable *table, const Motion *motion)
 {
-    double u = grid_coordinate(master1, table->start1, table->interval1, table->points1);
-    double v = grid_coordinate(master2, table->start2, table->interval2, table->points2);
+    double u = grid_coordinate(position_of(motion, &table->master1), table->start1, table->interval1, table->points1);
+    double v = grid_coordinate(position_of(motion, &table->master2), table->start2, table->interval2, table->points2);
     int32_t i = grid_cell(u, table->points1);
     int32_t j = grid_cell(v, table->points2);
     int32_t right = table->points1 > 1 ? 1 : 0;
@@ -664,6 +902,208 @@ static double plane_value(const double *pool, const PlaneTable *table, double ma
     return near + (v - j) * (far - near);
 }
 
+/* Follow the numbers of the table to another place in the pool. */
+static void move_plane(PlaneTable *table, int32_t by)
+{
+    table->values += by;
+}
+
+/* Tell whether the table can be used. */
+static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers)
+{
+    if (!(argument_fits(&table->master1, axes) && argument_fits(&table->master2, axes))) {
+        return false;
+    }
+    if (!(table->interval1 > 0.0 && table->interval2 > 0.0 && table->points1 > 0 && table->points2 > 0)) {
+        return false;
+    }
+    /* A start that is not finite would make a cell any number. */
+    if (table->start1 - table->start1 != 0.0 || table->start2 - table->start2 != 0.0) {
+        return false;
+    }
+    if (table->points1 > int_floor_div(numbers, table->points2)) {
+        return false;
+    }
+    return range_fits(table->values, table->points1 * table->points2, numbers);
+}
+
+/* =============================== temperature ================================
+ *
+ * Temperature compensation (lr_param.temp_comp): growth of the axis, linear over its position. Added.
+ *
+ * Δs = offset_0 + coefficient · (s − position_0), s the raw setpoint. Offset and coefficient may change while it acts
+ * (P-AXIS-00271 … 00275); the new ones come in over temp_comp_n_cycles.
+ */
+
+/* Return the correction at full weight; `position`: the raw setpoint. */
+static double temperature_value(const TemperatureTable *table, const TemperatureState *state, double position)
+{
+    return state->offset + state->coefficient * (position - table->position);
+}
+
+/* Take over offset and coefficient where they are finite; true: they have changed. */
+static bool take_temperature(TemperatureState *state, const TemperatureInputs *given)
+{
+    if (given->offset == state->offset && given->coefficient == state->coefficient) {
+        return false;
+    }
+    if (given->offset - given->offset != 0.0 || given->coefficient - given->coefficient != 0.0) {
+        return false;
+    }
+    state->offset = given->offset;
+    state->coefficient = given->coefficient;
+    return true;
+}
+
+/* Set the inputs to what the lists say. */
+static void begin_temperature(const TemperatureTable *table, TemperatureInputs *given)
+{
+    given->offset = table->offset;
+    given->coefficient = table->coefficient;
+}
+
+/* Go on with other lists: an input that is as the old ones said follows the new ones. */
+static void adopt_temperature(const TemperatureTable *before, const TemperatureTable *after, TemperatureInputs *given)
+{
+    if (given->offset == before->offset) {
+        given->offset = after->offset;
+    }
+    if (given->coefficient == before->coefficient) {
+        given->coefficient = after->coefficient;
+    }
+}
+
+/* Tell whether the table can be used: its numbers are finite. */
+static bool temperature_fits(const TemperatureTable *table)
+{
+    return table->position - table->position == 0.0 && table->offset - table->offset == 0.0
+            && table->coefficient - table->coefficient == 0.0;
+}
+
+/* ============================== compensations ===============================
+ *
+ * The compensations of an axis in the order of a cycle (semantics §3), and what each does when its turn comes.
+ *
+ * A new kind stands here as a number, as a field of the three records, and in the functions below; everything else that
+ * the engine does with compensations are loops over the numbers.
+ */
+
+/* Return what a kind adds to the setpoint or the current of an axis at full weight.
+ *
+ * `position`: the setpoint with all that was added before.
+ */
+static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
+        CompensationStates *states, const Motion *motion, int32_t axis, double position, double cycle_time)
+{
+    if (kind == CROSS) {
+        return cross_value(pool, &tables->cross, &states->cross, motion);
+    }
+    if (kind == PLANE) {
+        return plane_value(pool, &tables->plane, motion);
+    }
+    if (kind == CROSSTALK) {
+        return crosstalk_value(pool, &tables->crosstalk, &states->crosstalk, motion);
+    }
+    if (kind == TEMPERATURE) {
+        return temperature_value(&tables->temperature, &states->temperature, motion->axis[axis].setpoint);
+    }
+    if (kind == LEADSCREW) {
+        if (tables->leadscrew.without_other) {
+            position = motion->axis[axis].setpoint;
+        }
+        return leadscrew_value(pool, &tables->leadscrew, &states->leadscrew, position);
+    }
+    if (kind == BACKLASH) {
+        return backlash_value(&tables->backlash, &states->backlash, motion->axis[axis].direction);
+    }
+    return friction_current(pool, &tables->friction, &states->friction, &motion->axis[axis], cycle_time);
+}
+
+/* Take over the inputs of a kind; true: its values change by them, and are to blend in. */
+static bool is_renewed(int32_t kind, CompensationStates *states, const CompensationInputs *given)
+{
+    if (kind == TEMPERATURE) {
+        return take_temperature(&states->temperature, &given->temperature);
+    }
+    return false;
+}
+
+/* Tell whether a kind has been used where its table says nothing: the machine's user should know. */
+bool axcomp_has_left_table(int32_t kind, const CompensationStates *states)
+{
+    return kind == CROSSTALK && states->crosstalk.outside;
+}
+
+/* Set the inputs to what they are before anybody sets them. */
+static void begin_inputs(const CompensationTables *tables, CompensationInputs *given)
+{
+    begin_temperature(&tables->temperature, &given->temperature);
+}
+
+/* Let inputs that nobody has set follow an update. */
+static void adopt_inputs(const CompensationTables *before, const CompensationTables *after, CompensationInputs *given)
+{
+    adopt_temperature(&before->temperature, &after->temperature, &given->temperature);
+}
+
+/* Make the state of a kind fit its new table. */
+static void adopt_compensation(int32_t kind, const CompensationTables *before, const CompensationTables *after,
+        CompensationStates *states)
+{
+    if (kind == CROSS) {
+        adopt_cross(&states->cross);
+    } else if (kind == CROSSTALK) {
+        adopt_crosstalk(&states->crosstalk);
+    } else if (kind == LEADSCREW) {
+        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew);
+    } else if (kind == BACKLASH) {
+        adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
+    } else if (kind == FRICTION) {
+        adopt_friction(&after->friction, &states->friction);
+    }
+}
+
+/* Follow the numbers of a kind to another place in the pool. */
+static void move_compensation(int32_t kind, CompensationTables *tables, int32_t by)
+{
+    if (kind == CROSS) {
+        move_cross(&tables->cross, by);
+    } else if (kind == PLANE) {
+        move_plane(&tables->plane, by);
+    } else if (kind == CROSSTALK) {
+        move_crosstalk(&tables->crosstalk, by);
+    } else if (kind == LEADSCREW) {
+        move_leadscrew(&tables->leadscrew, by);
+    } else if (kind == FRICTION) {
+        move_friction(&tables->friction, by);
+    }
+}
+
+/* Tell whether the table of a kind can be used: every index means something, every divisor is not 0. */
+static bool compensation_fits(int32_t kind, const double *pool, const CompensationTables *tables, int32_t axes,
+        int32_t numbers)
+{
+    if (kind == CROSS) {
+        return cross_fits(pool, &tables->cross, axes, numbers);
+    }
+    if (kind == PLANE) {
+        return plane_fits(&tables->plane, axes, numbers);
+    }
+    if (kind == CROSSTALK) {
+        return crosstalk_fits(pool, &tables->crosstalk, axes, numbers);
+    }
+    if (kind == TEMPERATURE) {
+        return temperature_fits(&tables->temperature);
+    }
+    if (kind == LEADSCREW) {
+        return leadscrew_fits(pool, &tables->leadscrew, axes, numbers);
+    }
+    if (kind == BACKLASH) {
+        return backlash_fits(&tables->backlash);
+    }
+    return friction_fits(pool, &tables->friction, numbers);
+}
+
 /* ================================== shift ===================================
  *
  * NO_MOVE: what a compensation gains or loses when it is switched stays in the setpoint as a shift.
@@ -672,36 +1112,105 @@ static double plane_value(const double *pool, const PlaneTable *table, double ma
  * absorbed while a release is under way waits for the next one.
  */
 
-/* Take the shift back over `shift_cycles` cycles, from the first motion on. */
-static void release_shift(const AxisTable *table, ShiftState *shift, bool moving)
+/* Let what waits be released. */
+static void begin_release(Shift *shift)
 {
-    if (moving && shift->step == 0 && (shift->waiting_before_leadscrew != 0.0 || shift->waiting_leadscrew != 0.0)) {
-        shift->step = table->shift_cycles;
-        shift->released_before_leadscrew = shift->waiting_before_leadscrew;
-        shift->released_leadscrew = shift->waiting_leadscrew;
-        shift->waiting_before_leadscrew = 0.0;
-        shift->waiting_leadscrew = 0.0;
-    }
-    if (shift->step > 0) {
-        shift->step -= 1;
-    }
-    double weight = ramp(shift->step, table->shift_cycles);
-    shift->before_leadscrew = shift->waiting_before_leadscrew + weight * shift->released_before_leadscrew;
-    shift->leadscrew = shift->waiting_leadscrew + weight * shift->released_leadscrew;
+    shift->released = shift->waiting;
+    shift->waiting = 0.0;
 }
 
-/* Take out of the output what cross, plane or crosstalk gain by being switched. */
-static void absorb_before_leadscrew(ShiftState *shift, double gain)
+/* Take the shift back over so many cycles, from the first motion on. */
+static void release_shift(int32_t cycles, ShiftState *state, bool moving)
 {
-    shift->waiting_before_leadscrew -= gain;
-    shift->before_leadscrew -= gain;
+    if (moving && state->step == 0 && (state->before.waiting != 0.0 || state->behind.waiting != 0.0)) {
+        state->step = cycles;
+        begin_release(&state->before);
+        begin_release(&state->behind);
+    }
+    if (state->step > 0) {
+        state->step -= 1;
+    }
+    double weight = ramp(state->step, cycles);
+    state->before.now = state->before.waiting + weight * state->before.released;
+    state->behind.now = state->behind.waiting + weight * state->behind.released;
 }
 
-/* Take out of the output what the leadscrew compensation gains by being switched. */
-static void absorb_leadscrew(ShiftState *shift, double gain)
+/* Take out of the output what a compensation gains by being switched. */
+static void absorb(Shift *shift, double gain)
 {
-    shift->waiting_leadscrew -= gain;
-    shift->leadscrew -= gain;
+    shift->waiting -= gain;
+    shift->now -= gain;
+}
+
+/* ================================= initial ==================================
+ *
+ * The inputs before anybody sets them: referenced, and enabled what activates automatically.
+ */
+
+/* Set inputs that are all 0 to what they are at the start. */
+void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs)
+{
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        const AxisTable *table = &tables->axis[i];
+        AxisInputs *given = &inputs->axis[i];
+        given->referenced = true;
+        for (int32_t kind = 0; kind < KINDS; kind++) {
+            given->enable[kind] = table->switching[kind].reserved > 0 && !table->switching[kind].manual;
+        }
+        begin_inputs(&table->compensation, &given->compensation);
+    }
+    for (int32_t k = 0; k < tables->volumetrics; k++) {
+        inputs->volumetric[k].enable = tables->volumetric[k].configured && !tables->volumetric[k].manual;
+        inputs->volumetric[k].factor_x = 1.0;
+        inputs->volumetric[k].factor_y = 1.0;
+        inputs->volumetric[k].factor_z = 1.0;
+    }
+}
+
+/* ================================ activation ================================
+ *
+ * Which compensations of an axis are on: what must be referenced, and the commands of the enable inputs.
+ *
+ * Leadscrew, backlash and temperature need their axis referenced, cross its master, plane both masters and the slave,
+ * crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12, §13).
+ */
+
+/* Tell whether the axes that a compensation needs have their reference. */
+static bool is_referenced(const SwitchTable *table, const Inputs *inputs)
+{
+    for (int32_t k = 0; k < table->needs; k++) {
+        if (!inputs->axis[table->need[k]].referenced) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
+ *
+ * While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
+ */
+static void activate(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
+        bool moving)
+{
+    bool released = inputs->reset || inputs->program_end || (given->released && !axis->released);
+    axis->released = given->released;
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        if (table->switching[kind].configured) {
+            SwitchState *state = &axis->switching[kind];
+            bool ready = is_referenced(&table->switching[kind], inputs);
+            if (!axis->started) {
+                is_renewed(kind, &axis->compensation, &given->compensation);
+                begin_switch(&table->switching[kind], state, given->enable[kind], ready, released);
+            } else {
+                heed_command(&table->switching[kind], state, given->enable[kind], released, given->no_move);
+                if (!axis->held) {
+                    state->renewed = is_renewed(kind, &axis->compensation, &given->compensation) || state->renewed;
+                    advance_switch(&table->switching[kind], state, ready, moving);
+                }
+            }
+        }
+    }
 }
 
 /* ============================ volumetric_errors =============================
@@ -792,12 +1301,12 @@ static void add_from_grid(const double *pool, const ErrorBlock *block, const dou
     }
 }
 
-/* Return the squared distance of a position from node n. */
+/* Return the squared distance of a position from node n, round the circle where there is one. */
 static double square_distance(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS])
 {
     double square = 0.0;
     for (int32_t d = 0; d < block->arguments; d++) {
-        double difference = x[d] - pool[block->knots[0] + n * block->arguments + d];
+        double difference = nearest(x[d] - pool[block->knots[0] + n * block->arguments + d], block->period[d]);
         square += difference * difference;
     }
     return square;
@@ -871,8 +1380,8 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
         const ErrorBlock *block = &table->block[b];
         for (int32_t d = 0; d < block->arguments; d++) {
             x[d] = position[block->argument[d]];
-            if (block->folded[d]) {
-                x[d] = fold(x[d], 0.0, FULL_TURN);
+            if (block->period[d] > 0.0) {
+                x[d] = fold(x[d], block->start[d], block->period[d]);
             }
         }
         if (block->interpolation == INTERPOLATE_GRID && block->arguments == 1 && block->points[0] > 1) {
@@ -984,14 +1493,14 @@ static void linear_axis(int32_t letter, double q, const double errors[ERRORS], d
         double along[3])
 {
     int32_t e = ERRORS_OF_AXIS * letter;
-    if (errors[e + 3] != 0.0 || errors[e + 4] != 0.0 || errors[e + 5] != 0.0) {
-        rotation(errors[e + 3], errors[e + 4], errors[e + 5], m);
+    if (errors[e + A0] != 0.0 || errors[e + B0] != 0.0 || errors[e + C0] != 0.0) {
+        rotation(errors[e + A0], errors[e + B0], errors[e + C0], m);
         turn(m, along);
     }
     for (int32_t d = 0; d < LINEAR; d++) {
-        o[d] = along[d] * q + (errors[e + d] + errors[e + 6 + d]);
+        o[d] = along[d] * q + (errors[e + X0 + d] + errors[e + EX + d]);
     }
-    rotation(errors[e + 9], errors[e + 10], errors[e + 11], m);
+    rotation(errors[e + EA], errors[e + EB], errors[e + EC], m);
 }
 
 /* Let a map about the origin act about the centre of A, B or C. */
@@ -1065,26 +1574,27 @@ static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, 
     double tilt[9] = {0};
     if (table->alternative) {
         /* L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …). */
-        rotation(errors[e + 3], errors[e + 4], errors[e + 5], tilt);
+        rotation(errors[e + A0], errors[e + B0], errors[e + C0], tilt);
         turn(tilt, axis);
         rotation_about(axis, q, m);
         for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = -errors[e + d];
+            o[d] = -errors[e + X0 + d];
         }
         turn(m, o);
         for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + d];
+            o[d] += errors[e + X0 + d];
         }
-        rotation(errors[e + 9], errors[e + 10], errors[e + 11], tilt);
+        rotation(errors[e + EA], errors[e + EB], errors[e + EC], tilt);
         turn(tilt, o);
         for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + 6 + d];
+            o[d] += errors[e + EX + d];
         }
     } else {
         rotation_about(axis, q, m);
-        rotation(errors[e + 3] + errors[e + 9], errors[e + 4] + errors[e + 10], errors[e + 5] + errors[e + 11], tilt);
+        rotation(errors[e + A0] + errors[e + EA], errors[e + B0] + errors[e + EB], errors[e + C0] + errors[e + EC],
+                tilt);
         for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = errors[e + d] + errors[e + 6 + d];
+            o[d] = errors[e + X0 + d] + errors[e + EX + d];
         }
     }
     multiply_from_left(tilt, m);
@@ -1484,7 +1994,7 @@ static void compute_values(const double *pool, const VolumetricTable *table, Vol
 {
     double position[LETTERS] = {0};
     for (int32_t letter = 0; letter < LETTERS; letter++) {
-        position[letter] = state->axis[table->axis[letter]].setpoint + table->offset[letter];
+        position[letter] = state->motion.axis[table->axis[letter]].setpoint + table->offset[letter];
     }
     double errors[ERRORS] = {0};
     errors_at(pool, table, position, errors);
@@ -1526,7 +2036,8 @@ static void contribute(const VolumetricTable *table, VolumetricState *volumetric
 }
 
 /* Put the sum of all volumetric corrections and shifts into the state of every axis. */
-static void compensate_volume(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs)
+static void compensate_volume(const Tables *tables, const double *pool, State *state, const Inputs *inputs,
+        Outputs *outputs)
 {
     for (int32_t i = 0; i < tables->axis_count; i++) {
         state->axis[i].volumetric_correction = 0.0;
@@ -1544,7 +2055,7 @@ static void compensate_volume(const Tables *tables, State *state, const Inputs *
             VolumetricState *volumetric = &state->volumetric[k];
             switch_volumetric(table, volumetric, &inputs->volumetric[k], inputs, state);
             if (volumetric->step > 0) {
-                compute_values(tables->pool, table, volumetric, state);
+                compute_values(pool, table, volumetric, state);
             }
             contribute(table, volumetric, state);
             outputs->volumetric[k].active = volumetric->step > 0;
@@ -1556,143 +2067,109 @@ static void compensate_volume(const Tables *tables, State *state, const Inputs *
  *
  * One cycle of the whole engine (semantics §3).
  *
- * For every axis: cross, plane and crosstalk, each from the masters' raw setpoints; the leadscrew from raw + these; the
- * volumetric compensations from the raw setpoints of all their axes; then corrected setpoint = raw + all corrections +
- * shift; the friction current from the setpoint velocity; the display position = measured position − (corrected − raw).
+ * For every axis: cross, plane, crosstalk and temperature, each from raw setpoints; the leadscrew from raw + these; then
+ * backlash; the volumetric compensations from the raw setpoints of all their axes; corrected setpoint = raw + all
+ * corrections + shift; the friction current from the setpoint velocity; display position = measured position − (corrected
+ * − raw).
  */
 
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
-static void accept(AxisState *axis, const AxisInputs *given)
+static void accept(const AxisTable *table, AxisState *axis, AxisMotion *motion, const AxisInputs *given,
+        double cycle_time)
 {
     axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
             && -LARGEST < given->velocity && given->velocity < LARGEST
             && -LARGEST < given->acceleration && given->acceleration < LARGEST
             && -LARGEST < given->actual_position && given->actual_position < LARGEST);
     if (!axis->held) {
-        axis->moving = axis->started && (given->setpoint != axis->setpoint || given->velocity != 0.0);
-        axis->setpoint = given->setpoint;
-        axis->velocity = given->velocity;
-        axis->acceleration = given->acceleration;
+        if (!axis->started) {
+            motion->counted = given->setpoint;
+        }
+        move_axis(motion, given->setpoint, given->velocity, cycle_time, table->modulo_range);
+        motion->acceleration = given->acceleration;
     }
 }
 
-/* Cross compensation of the slave `axis`. */
-static void correct_by_cross(const double *pool, const AxisTable *table, AxisState *axis, const AxisState *master,
-        AxisOutputs *out)
+/* Tell whether a kind has a table, or had one whose values still run out. */
+static bool acts(const SwitchTable *table, const SwitchState *state)
 {
-    double value = cross_value(pool, &table->cross, &axis->cross, master->setpoint);
-    out->cross_correction = axis->cross.switching.weight * value;
-    out->cross_active = axis->cross.switching.step > 0;
-    absorb_before_leadscrew(&axis->shift, axis->cross.switching.absorbed * value);
+    return table->configured || state->contribution != 0.0;
 }
 
-/* Plane compensation of the slave `axis`. */
-static void correct_by_plane(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
-        AxisOutputs *out)
-{
-    double master1 = state->axis[table->plane.master1].setpoint;
-    double master2 = state->axis[table->plane.master2].setpoint;
-    double value = plane_value(pool, &table->plane, master1, master2);
-    out->plane_correction = axis->plane.switching.weight * value;
-    out->plane_active = axis->plane.switching.step > 0;
-    absorb_before_leadscrew(&axis->shift, axis->plane.switching.absorbed * value);
-}
-
-/* Crosstalk compensation of the slave `axis`. */
-static void correct_by_crosstalk(const double *pool, const AxisTable *table, AxisState *axis, const State *state,
-        AxisOutputs *out)
-{
-    const AxisState *master = &state->axis[table->crosstalk.master];
-    double position1 = state->axis[table->crosstalk.adaptation1].setpoint;
-    double position2 = state->axis[table->crosstalk.adaptation2].setpoint;
-    double value = crosstalk_value(pool, &table->crosstalk, &axis->crosstalk, master->acceleration, master->velocity,
-            position1, position2);
-    out->crosstalk_correction = axis->crosstalk.switching.weight * value;
-    out->crosstalk_active = axis->crosstalk.switching.step > 0;
-    absorb_before_leadscrew(&axis->shift, axis->crosstalk.switching.absorbed * value);
-}
-
-/* Leadscrew error compensation at an input position. */
-static void correct_by_leadscrew(const double *pool, const AxisTable *table, AxisState *axis, double position,
-        AxisOutputs *out)
-{
-    double value = leadscrew_value(pool, &table->leadscrew, &axis->leadscrew, position, table->modulo_range);
-    out->leadscrew_correction = axis->leadscrew.switching.weight * value;
-    out->leadscrew_active = axis->leadscrew.switching.step > 0;
-    absorb_leadscrew(&axis->shift, axis->leadscrew.switching.absorbed * value);
-}
-
-/* Friction compensation. */
-static void add_friction_current(const Tables *tables, const AxisTable *table, AxisState *axis, AxisOutputs *out)
-{
-    double current = friction_current(table->pool, &table->friction, &axis->friction, axis->setpoint, axis->velocity,
-            axis->acceleration, tables->cycle_time, table->modulo_range);
-    out->current = axis->friction.switching.weight * current;
-    out->friction_active = axis->friction.switching.step > 0;
-}
-
-/* Correct one axis. */
-static void correct_axis(const Tables *tables, State *state, const Inputs *inputs, AxisOutputs *out, int32_t i)
+/* Return what a kind adds to axis i in this cycle; what NO_MOVE absorbs of it goes into the shift. */
+static double correct_by(int32_t kind, const Tables *tables, const double *pool, State *state, AxisOutputs *out,
+        int32_t i, double position)
 {
     const AxisTable *table = &tables->axis[i];
     AxisState *axis = &state->axis[i];
-    const AxisInputs *given = &inputs->axis[i];
-    release_shift(table, &axis->shift, axis->moving);
+    SwitchState *own = &axis->switching[kind];
+    double value = 0.0;
+    if (table->switching[kind].configured) {
+        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &state->motion, i, position,
+                tables->cycle_time);
+    }
+    out->contribution[kind] = contribution_of(&table->switching[kind], own, value);
+    out->active[kind] = own->step > 0;
+    if (kind < LEADSCREW) {
+        absorb(&axis->shift.before, own->absorbed * value);
+    } else if (kind < FRICTION) {
+        absorb(&axis->shift.behind, own->absorbed * value);
+    }
+    return out->contribution[kind];
+}
 
-    if (table->cross.switching.configured) {
-        correct_by_cross(table->pool, table, axis, &state->axis[table->cross.master], out);
-    }
-    if (table->plane.switching.configured) {
-        correct_by_plane(table->pool, table, axis, state, out);
-    }
-    if (table->crosstalk.switching.configured) {
-        correct_by_crosstalk(table->pool, table, axis, state, out);
-    }
-    double correction = out->cross_correction + out->plane_correction + out->crosstalk_correction;
-    if (table->leadscrew.switching.configured) {
-        double position = axis->setpoint;
-        if (!table->leadscrew.without_other) {
-            position += correction + axis->shift.before_leadscrew;
+/* Correct one axis. */
+static void correct_axis(const Tables *tables, const double *pool, State *state, const Inputs *inputs, AxisOutputs *out,
+        int32_t i)
+{
+    const AxisTable *table = &tables->axis[i];
+    AxisState *axis = &state->axis[i];
+    const AxisMotion *motion = &state->motion.axis[i];
+    release_shift(table->shift_cycles, &axis->shift, motion->moving);
+
+    double correction = 0.0;
+    double position = motion->setpoint;
+    for (int32_t kind = 0; kind < FRICTION; kind++) {
+        if (kind == LEADSCREW) {
+            position = motion->setpoint + (correction + axis->shift.before.now);
         }
-        if (!axis->started) {
-            begin_leadscrew(&table->leadscrew, &axis->leadscrew, position);
+        if (acts(&table->switching[kind], &axis->switching[kind])) {
+            correction += correct_by(kind, tables, pool, state, out, i, position);
         }
-        correct_by_leadscrew(table->pool, table, axis, position, out);
-        correction += out->leadscrew_correction;
     }
     out->volumetric_correction = axis->volumetric_correction;
     correction += out->volumetric_correction;
 
     out->correction = correction;
-    out->setpoint_shift = axis->shift.before_leadscrew + axis->shift.leadscrew + axis->volumetric_shift;
+    out->setpoint_shift = axis->shift.before.now + axis->shift.behind.now + axis->volumetric_shift;
     out->stop_request = axis->stop_request;
-    out->corrected_setpoint = axis->setpoint + (correction + out->setpoint_shift);
-    out->display_position = given->actual_position - (correction + out->setpoint_shift);
-    if (table->friction.switching.configured) {
-        add_friction_current(tables, table, axis, out);
+    out->corrected_setpoint = motion->setpoint + (correction + out->setpoint_shift);
+    out->display_position = inputs->axis[i].actual_position - (correction + out->setpoint_shift);
+    if (acts(&table->switching[FRICTION], &axis->switching[FRICTION])) {
+        correct_by(FRICTION, tables, pool, state, out, i, position);
     }
     axis->started = true;
 }
 
 /* Run one cycle: the outputs belong to these inputs. */
-void axcomp_cycle(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs)
+void axcomp_cycle(const Tables *tables, const double *pool, State *state, const Inputs *inputs, Outputs *outputs)
 {
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(&state->axis[i], &inputs->axis[i]);
+        accept(&tables->axis[i], &state->axis[i], &state->motion.axis[i], &inputs->axis[i], tables->cycle_time);
     }
     if (tables->volumetrics > 0) {
-        compensate_volume(tables, state, inputs, outputs);
+        compensate_volume(tables, pool, state, inputs, outputs);
     }
     for (int32_t i = 0; i < tables->axis_count; i++) {
         AxisState *axis = &state->axis[i];
         if (inputs->reset) {
             axis->error = 0;
         }
-        activate(&tables->axis[i], axis, inputs, &inputs->axis[i]);
+        activate(&tables->axis[i], axis, inputs, &inputs->axis[i], state->motion.axis[i].moving);
         if (axis->held) {
             outputs->axis[i].error = ERROR_INPUT;
         } else {
-            correct_axis(tables, state, inputs, &outputs->axis[i], i);
+            correct_axis(tables, pool, state, inputs, &outputs->axis[i], i);
             outputs->axis[i].error = axis->error;
         }
     }
@@ -1700,52 +2177,50 @@ void axcomp_cycle(const Tables *tables, State *state, const Inputs *inputs, Outp
 
 /* ================================== adopt ===================================
  *
- * An update of the tables while the machine runs: what is on stays on, with the new values from the next cycle on.
+ * An update of the tables while the machine runs: what is on stays on, and the new values blend in (semantics §2).
  *
  * Only a volumetric compensation switches off, without motion; an automatic one then switches on again.
  */
 
-/* Tell whether a compensation is configured that was not. */
-static bool appears(const SwitchTable *before, const SwitchTable *after)
-{
-    return after->configured && !before->configured;
-}
-
 /* Return why an axis cannot take new tables, 0 if it can.
  *
- * Sizes that were reserved cannot change, and a compensation that was not there has no variables.
+ * `before` says what was declared at the start: a compensation that the axis did not activate has no variables, and
+ * the room that was reserved for a table cannot change.
  */
 int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
 {
     if (before->number != after->number) {
         return ERROR_UPDATE;
     }
-    if (appears(&before->cross.switching, &after->cross.switching)
-            || appears(&before->plane.switching, &after->plane.switching)) {
-        return ERROR_UPDATE;
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        if (after->switching[kind].configured && before->switching[kind].reserved == 0) {
+            return ERROR_UPDATE;
+        }
     }
-    if (appears(&before->crosstalk.switching, &after->crosstalk.switching)) {
-        return ERROR_UPDATE;
-    }
-    if (appears(&before->leadscrew.switching, &after->leadscrew.switching)) {
-        return ERROR_UPDATE;
-    }
-    if (appears(&before->friction.switching, &after->friction.switching)) {
-        return ERROR_UPDATE;
-    }
-    if (after->leadscrew.switching.configured && before->leadscrew.max_points != after->leadscrew.max_points) {
-        return ERROR_LEADSCREW_POINTS;
-    }
-    if (after->cross.switching.configured && before->cross.max_points != after->cross.max_points) {
-        return ERROR_CROSS_POINTS;
-    }
-    if (after->plane.switching.configured && before->plane.max_points != after->plane.max_points) {
-        return ERROR_PLANE_POINTS;
-    }
-    if (after->friction.switching.configured && before->friction.max_points != after->friction.max_points) {
-        return ERROR_FRICTION_POINTS;
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        int32_t declared = before->switching[kind].reserved;
+        int32_t reserved = after->switching[kind].reserved;
+        if (declared != reserved && declared > 0 && reserved > 0 && before->switching[kind].points_error != 0) {
+            return before->switching[kind].points_error;
+        }
     }
     return 0;
+}
+
+/* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
+void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given)
+{
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        adopt_switch(&before->switching[kind], &after->switching[kind], &axis->switching[kind]);
+        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
+        if (!after->switching[kind].configured) {
+            after->switching[kind].blend_cycles = before->switching[kind].blend_cycles;
+        }
+        after->switching[kind].reserved = before->switching[kind].reserved;
+        after->switching[kind].points_error = before->switching[kind].points_error;
+    }
+    adopt_inputs(&before->compensation, &after->compensation, &given->compensation);
+    axis->shift.step = int_min(axis->shift.step, after->shift_cycles);
 }
 
 /* Make the state of the volumetric compensations fit their new tables. */
@@ -1757,62 +2232,13 @@ void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *
     }
 }
 
-/* Keep a switch where it stands between off and on. */
-static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state)
+/* Follow the numbers of an axis to another place in the pool, where they begin at `first`. */
+void axcomp_move_axis_table(AxisTable *table, int32_t first)
 {
-    if (!after->configured) {
-        state->step = 0;
-    } else if (state->step >= before->cycles && state->step > 0) {
-        state->step = after->cycles;
-    } else {
-        state->step = int_min(state->step, after->cycles);
-    }
-    state->weight = ramp(state->step, after->cycles);
-    state->absorbed = 0.0;
-}
-
-/* Start the next search from the front: the new table may be shorter. */
-static void forget(Lookup *lookup)
-{
-    lookup->interval = 0;
-}
-
-/* Make the state of an axis fit its new tables (`update_error` is 0); what no longer exists puts out 0. */
-void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisState *axis, AxisOutputs *out)
-{
-    adopt_switch(&before->cross.switching, &after->cross.switching, &axis->cross.switching);
-    adopt_switch(&before->plane.switching, &after->plane.switching, &axis->plane.switching);
-    adopt_switch(&before->crosstalk.switching, &after->crosstalk.switching, &axis->crosstalk.switching);
-    adopt_switch(&before->leadscrew.switching, &after->leadscrew.switching, &axis->leadscrew.switching);
-    adopt_switch(&before->friction.switching, &after->friction.switching, &axis->friction.switching);
-    forget(&axis->cross.lookup);
-    forget(&axis->crosstalk.lookup);
-    forget(&axis->crosstalk.lookup2);
-    forget(&axis->leadscrew.lookup);
-    forget(&axis->friction.lookup);
-    axis->leadscrew.reversal_step = axis->leadscrew.backward ? 0 : after->leadscrew.reversal_cycles;
-    axis->shift.step = int_min(axis->shift.step, after->shift_cycles);
-    axis->friction.since_reversal = int_min(axis->friction.since_reversal, after->friction.lookahead);
-
-    if (!after->cross.switching.configured) {
-        out->cross_correction = 0.0;
-        out->cross_active = false;
-    }
-    if (!after->plane.switching.configured) {
-        out->plane_correction = 0.0;
-        out->plane_active = false;
-    }
-    if (!after->crosstalk.switching.configured) {
-        out->crosstalk_correction = 0.0;
-        out->crosstalk_active = false;
-    }
-    if (!after->leadscrew.switching.configured) {
-        out->leadscrew_correction = 0.0;
-        out->leadscrew_active = false;
-    }
-    if (!after->friction.switching.configured) {
-        out->current = 0.0;
-        out->friction_active = false;
+    int32_t by = first - table->first;
+    table->first = first;
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        move_compensation(kind, &table->compensation, by);
     }
 }
 
@@ -1921,7 +2347,10 @@ static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numb
         return false;
     }
     for (int32_t d = 0; d < block->arguments; d++) {
-        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS)) {
+        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS) || !(block->period[d] >= 0.0)) {
+            return false;
+        }
+        if (block->start[d] - block->start[d] != 0.0 || block->period[d] - block->period[d] != 0.0) {  /* not finite */
             return false;
         }
     }
@@ -1967,180 +2396,37 @@ static bool volumetric_fits(const double *pool, const VolumetricTable *table, in
  * The table compiler makes only such tables; tables that come from a file are looked at before they are used.
  */
 
-/* Tell whether a transition has a possible length. */
-static bool switch_fits(const SwitchTable *table)
+/* Tell whether the tables of one axis can be used; what is not configured is not looked at. */
+static bool axis_fits(const AxisTable *table, const double *pool, int32_t axes, int32_t numbers)
 {
-    return 1 <= table->cycles && table->cycles <= CYCLES_MAX;
-}
-
-/* Tell whether a curve lies in the pool and its abscissae ascend. */
-static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
-{
-    return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
-}
-
-/* Tell whether an index means an axis. */
-static bool index_fits(int32_t index, int32_t axes)
-{
-    return 0 <= index && index < axes;
-}
-
-/* Tell whether a cross compensation can be used. */
-static bool cross_fits(const double *pool, const CrossTable *table, int32_t axes, int32_t numbers)
-{
-    return switch_fits(&table->switching) && index_fits(table->master, axes)
-            && curve_fits(pool, &table->curve, numbers);
-}
-
-/* Tell whether a plane compensation can be used. */
-static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers)
-{
-    if (!(switch_fits(&table->switching) && index_fits(table->master1, axes) && index_fits(table->master2, axes))) {
+    if (!(table->modulo_range >= 0.0) || !(1 <= table->shift_cycles && table->shift_cycles <= CYCLES_MAX)) {
         return false;
     }
-    if (!(table->interval1 > 0.0 && table->interval2 > 0.0 && table->points1 > 0 && table->points2 > 0)) {
+    if (!(0 <= table->first && table->first <= numbers
+            && 0 <= table->numbers && table->numbers <= numbers - table->first)) {
         return false;
     }
-    /* not finite: a cell would be any number */
-    if (table->start1 - table->start1 != 0.0 || table->start2 - table->start2 != 0.0) {
-        return false;
-    }
-    if (table->points1 > int_floor_div(numbers, table->points2)) {
-        return false;
-    }
-    return range_fits(table->values, table->points1 * table->points2, numbers);
-}
-
-/* Tell whether the grid of tests can be used. */
-static bool grid_fits(const double *pool, const CrosstalkTable *table, int32_t numbers)
-{
-    if (!(1 < table->points1 && table->points1 <= table->tests
-            && 1 < table->points2 && table->points2 <= table->tests)) {
-        return false;
-    }
-    if (table->points2 != int_floor_div(table->tests, table->points1)
-            || int_floor_mod(table->tests, table->points1) != 0) {
-        return false;
-    }
-    return ascending(pool, table->x1, table->points1, numbers) && ascending(pool, table->x2, table->points2, numbers);
-}
-
-/* Tell whether the triangles and the hull of scattered tests can be used. */
-static bool triangles_fit(const double *pool, const CrosstalkTable *table, int32_t numbers)
-{
-    if (!(range_fits(table->x1, table->tests, numbers) && range_fits(table->x2, table->tests, numbers))) {
-        return false;
-    }
-    if (!(1 <= table->triangles && table->triangles <= int_floor_div(numbers, 3)
-            && 1 <= table->edges && table->edges <= int_floor_div(numbers, 2))) {
-        return false;
-    }
-    if (!range_fits(table->triangle, 3 * table->triangles, numbers)) {
-        return false;
-    }
-    if (!range_fits(table->edge, 2 * table->edges, numbers)) {
-        return false;
-    }
-    for (int32_t k = 0; k < 3 * table->triangles; k++) {
-        if (!(0.0 <= pool[table->triangle + k] && pool[table->triangle + k] < table->tests)) {
-            return false;
-        }
-    }
-    for (int32_t k = 0; k < 2 * table->edges; k++) {
-        if (!(0.0 <= pool[table->edge + k] && pool[table->edge + k] < table->tests)) {
-            return false;
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        if (table->switching[kind].configured) {
+            if (!switch_fits(&table->switching[kind], axes)) {
+                return false;
+            }
+            if (!compensation_fits(kind, pool, &table->compensation, axes, numbers)) {
+                return false;
+            }
         }
     }
     return true;
 }
 
-/* Tell whether a crosstalk compensation can be used. */
-static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int32_t axes, int32_t numbers)
-{
-    if (!(switch_fits(&table->switching) && index_fits(table->master, axes))) {
-        return false;
-    }
-    if (!(index_fits(table->adaptation1, axes) && index_fits(table->adaptation2, axes))) {
-        return false;
-    }
-    if (table->variant == CROSSTALK_CURVE) {
-        return curve_fits(pool, &table->curve, numbers);
-    }
-    if (!(CROSSTALK_CURVE < table->variant && table->variant <= CROSSTALK_TRIANGLES
-            && 1 <= table->tests && table->tests <= int_floor_div(numbers, 4))) {
-        return false;
-    }
-    if (!(table->acceleration > 0.0 && table->deceleration < 0.0)) {
-        return false;
-    }
-    if (!range_fits(table->values, 4 * table->tests, numbers)) {
-        return false;
-    }
-    if (table->variant == CROSSTALK_LINE) {
-        return table->tests > 1 && ascending(pool, table->x1, table->tests, numbers);
-    }
-    if (table->variant == CROSSTALK_GRID) {
-        return grid_fits(pool, table, numbers);
-    }
-    return table->variant != CROSSTALK_TRIANGLES || triangles_fit(pool, table, numbers);
-}
-
-/* Tell whether a leadscrew compensation can be used. */
-static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int32_t numbers)
-{
-    if (!(switch_fits(&table->switching) && 1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX)) {
-        return false;
-    }
-    if (!curve_fits(pool, &table->positive, numbers)) {
-        return false;
-    }
-    return !table->bilateral || curve_fits(pool, &table->negative, numbers);
-}
-
-/* Tell whether a friction compensation can be used. */
-static bool friction_fits(const double *pool, const FrictionTable *table, int32_t numbers)
-{
-    if (!(switch_fits(&table->switching) && curve_fits(pool, &table->curve, numbers))) {
-        return false;
-    }
-    return 0 <= table->delay && table->delay < DELAY_LINE && 0 <= table->lookahead && table->lookahead <= LOOKAHEAD_MAX
-            && table->position_delay >= 0.0;
-}
-
-/* Tell whether the tables of one axis can be used; what is not configured is not looked at. */
-static bool axis_fits(const double *pool, const AxisTable *table, int32_t axes, int32_t numbers)
-{
-    if (table->modulo_range < 0.0 || !(1 <= table->shift_cycles && table->shift_cycles <= CYCLES_MAX)) {
-        return false;
-    }
-    if (table->cross.switching.configured && !cross_fits(pool, &table->cross, axes, numbers)) {
-        return false;
-    }
-    if (table->plane.switching.configured && !plane_fits(&table->plane, axes, numbers)) {
-        return false;
-    }
-    if (table->crosstalk.switching.configured && !crosstalk_fits(pool, &table->crosstalk, axes, numbers)) {
-        return false;
-    }
-    if (table->leadscrew.switching.configured) {
-        if (table->leadscrew.modulo && table->modulo_range == 0.0) {
-            return false;
-        }
-        if (!leadscrew_fits(pool, &table->leadscrew, numbers)) {
-            return false;
-        }
-    }
-    return !table->friction.switching.configured || friction_fits(pool, &table->friction, numbers);
-}
-
 /* Tell whether the tables can be used with a pool of so many numbers. */
-bool axcomp_tables_fit(const Tables *tables, int32_t numbers)
+bool axcomp_tables_fit(const Tables *tables, const double *pool, int32_t numbers)
 {
     if (!(tables->cycle_time > 0.0 && 0 <= tables->axis_count && tables->axis_count <= AXES)) {
         return false;
     }
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        if (!axis_fits(tables->axis[i].pool, &tables->axis[i], tables->axis_count, numbers)) {
+        if (!axis_fits(&tables->axis[i], pool, tables->axis_count, numbers)) {
             return false;
         }
     }
@@ -2148,7 +2434,7 @@ bool axcomp_tables_fit(const Tables *tables, int32_t numbers)
         return false;
     }
     for (int32_t k = 0; k < tables->volumetrics; k++) {
-        if (!volumetric_fits(tables->pool, &tables->volumetric[k], tables->axis_count, numbers)) {
+        if (!volumetric_fits(pool, &tables->volumetric[k], tables->axis_count, numbers)) {
             return false;
         }
     }

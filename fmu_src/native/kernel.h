@@ -10,12 +10,307 @@
 #define AXCOMP_API
 #endif
 
+/* =============================== trigonometry =============================== */
+
+#define QUARTER_PI 0.7853981633974483
+#define HALF_PI 1.5707963267948966
+#define TWO_OVER_PI 0.6366197723675814
+#define HALF_PI_HEAD 1.57079632673412561417
+#define HALF_PI_MIDDLE 6.07710050630396597660e-11
+#define HALF_PI_TAIL 2.02226624879595063154e-21
+
+/* ================================ switching ================================= */
+
+#define NEEDS 3  /* a plane needs two masters and its slave */
+#define CYCLES_MAX 20  /* of a transition (P-COMP-00026, P-AXIS-00243) */
+
+/* How a compensation switches on and off. */
+typedef struct {
+    bool configured;  /* there is a table */
+    bool manual;  /* by command only; reset, program end and release switch off */
+    bool at_standstill;  /* a command waits until the slave stands still */
+    int32_t cycles;  /* of the transition, at least 1 (1: at once) */
+    int32_t blend_cycles;  /* over which new values come in, at least 1 (1: at once) */
+    int32_t reserved;  /* entries the controller keeps free for its table; 0: the axis does not activate it */
+    int32_t points_error;  /* of an update that changes what is reserved; 0: it may */
+    int32_t needs;  /* axes that must be referenced */
+    int32_t need[NEEDS];
+} SwitchTable;
+
+/* Where a compensation stands between off and on, and what it adds. */
+typedef struct {
+    bool enable;  /* the input in the last cycle: its edges are the commands */
+    bool command;  /* what was last commanded */
+    bool granted;  /* the command, once it may act */
+    bool no_move;  /* the command came with NO_MOVE */
+    int32_t step;  /* k of w(k) */
+    double weight;  /* w(k), 0 … 1 */
+    double absorbed;  /* change of the weight that NO_MOVE takes out of the output, this cycle only */
+    double contribution;  /* what it adds */
+    bool renewed;  /* its values are others than in the last cycle */
+    double difference;  /* what it added before it was renewed, less what it adds now */
+    int32_t blend_step;  /* of the transition to the new values: blend_cycles … 0 */
+} SwitchState;
+
+/* ================================= backlash ================================= */
+
+/* What is added after a motion in one of the two directions. */
+typedef struct {
+    double amount;  /* −lose in mode 1, +lose in mode 2, mm or ° */
+    int32_t direction;  /* of the motion after which it is added: −1 in mode 1, 1 in mode 2 */
+    int32_t reversal_cycles;  /* at least 1 (1: at once) */
+} BacklashTable;
+
+/* What the backlash compensation remembers. */
+typedef struct {
+    int32_t step;  /* reversal_cycles: the amount is added, 0: nothing is */
+} BacklashState;
+
+/* ============================== interpolation =============================== */
+
+/* Piecewise linear y(x): `points` abscissae and as many ordinates in the pool. */
+typedef struct {
+    int32_t points;
+    int32_t x;
+    int32_t y;
+} Curve;
+
+/* Where a search ended last time. */
+typedef struct {
+    int32_t interval;
+} Lookup;
+
+/* ================================== motion ================================== */
+
+#define AXES 32
+#define STANDSTILL 1e-9  /* mm or ° a cycle */
+
+/* The motion of an axis in this cycle; setpoint, velocity and acceleration are the last ones that were finite. */
+typedef struct {
+    double setpoint;
+    double velocity;
+    double acceleration;
+    double counted;  /* the setpoint when it last moved: changes that are no motion add up from there */
+    bool moving;
+    int32_t sign;  /* of the velocity, 0 while that is no motion */
+    int32_t direction;  /* of the last motion, 1 or −1; 0 before any */
+} AxisMotion;
+
+/* The motion of all axes. */
+typedef struct {
+    AxisMotion axis[AXES];
+} Motion;
+
+/* What a table is looked up with: the raw setpoint of an axis.
+ *
+ * Of an axis that counts modulo it is folded into one turn, the one that is centred on the table (semantics §5).
+ */
+typedef struct {
+    int32_t axis;
+    double start;  /* of the turn */
+    double period;  /* 0: not folded */
+} Argument;
+
+/* ================================== cross =================================== */
+
+/* Correction of the slave over the position of its master. */
+typedef struct {
+    Argument master;
+    Curve curve;
+} CrossTable;
+
+/* What the cross compensation remembers. */
+typedef struct {
+    Lookup lookup;
+} CrossState;
+
+/* ================================ crosstalk ================================= */
+
+#define CROSSTALK_CURVE 0  /* manual 001: linear over the acceleration */
+#define CROSSTALK_CONSTANT 1  /* mode 1 */
+#define CROSSTALK_LINE 2  /* mode 2 */
+#define CROSSTALK_GRID 3  /* mode 3, tests on a full rectangular grid */
+#define CROSSTALK_TRIANGLES 4  /* mode 3, scattered tests */
+
+/* barycentric coordinate of a point that rounding puts just outside a triangle, as flat as they come */
+#define ON_EDGE (-1e-7)
+
+/* Correction of the slave while its master accelerates.
+ *
+ * `values` has four blocks of `tests` numbers: acceleration in positive and negative motion, deceleration in
+ * positive and negative motion. In the old variant `curve` is the correction over the signed acceleration.
+ */
+typedef struct {
+    int32_t variant;  /* one of the CROSSTALK_ constants */
+    int32_t master;
+    Argument adaptation1;
+    Argument adaptation2;
+    double acceleration;
+    double deceleration;  /* < 0 */
+    bool velocity_dependent;
+    Curve curve;
+    int32_t tests;
+    int32_t values;
+    int32_t points1;  /* grid: abscissae of the first adaptation axis; values are [j][i] as in a plane */
+    int32_t points2;
+    int32_t x1;  /* abscissae of the first adaptation axis, or the tests' positions */
+    int32_t x2;
+    int32_t triangles;  /* scattered tests: three test numbers each */
+    int32_t triangle;
+    int32_t edges;  /* hull of the tests: two test numbers each */
+    int32_t edge;
+} CrosstalkTable;
+
+/* What the crosstalk compensation remembers. */
+typedef struct {
+    Lookup lookup;
+    Lookup lookup2;
+    bool outside;  /* the adaptation axes have left the hull of the tests */
+} CrosstalkState;
+
+/* ================================= friction ================================= */
+
+#define DELAY_LINE 249  /* delay_cycles < 249 (P-COMP-00058) */
+#define LOOKAHEAD_MAX 4  /* P-COMP-00044 */
+
+/* Current over the speed. */
+typedef struct {
+    Curve curve;
+    double scaling;
+    double position_delay;
+    int32_t lookahead;
+    int32_t delay;
+    double modulo_range;  /* of the axis; 0: it does not count modulo */
+} FrictionTable;
+
+/* What the friction compensation remembers. */
+typedef struct {
+    Lookup lookup;
+    int32_t direction;  /* sign of the last velocity that was not 0 */
+    double reversal_position;
+    bool built_up;  /* the axis has gone position_delay since */
+    int32_t since_reversal;  /* cycles, at most lookahead */
+    int32_t head;  /* where the delay line is written next */
+    double line[DELAY_LINE];
+} FrictionState;
+
+/* ================================ leadscrew ================================= */
+
+/* Errors of an axis over its position; both directions share the interpolation points. */
+typedef struct {
+    Argument argument;  /* the axis itself */
+    Curve positive;
+    Curve negative;
+    bool bilateral;
+    bool without_other;  /* the position does not contain the other corrections (P-COMP-00057) */
+    double modulo_range;  /* of the axis; 0: it does not count modulo */
+    int32_t reversal_cycles;  /* of the change-over between the directions, at least 1 (1: at once) */
+} LeadscrewTable;
+
+/* What the leadscrew compensation remembers. */
+typedef struct {
+    Lookup lookup;
+    bool started;
+    double counted;  /* input when it last moved */
+    bool backward;  /* its last motion was negative */
+    int32_t reversal_step;  /* reversal_cycles: positive values, 0: negative values */
+} LeadscrewState;
+
+/* ================================== plane =================================== */
+
+/* Correction of the slave over the positions of two masters; correction[j][i] at values + j * points1 + i. */
+typedef struct {
+    Argument master1;
+    Argument master2;
+    double start1;
+    double start2;
+    double interval1;
+    double interval2;
+    int32_t points1;
+    int32_t points2;
+    int32_t values;
+} PlaneTable;
+
+/* =============================== temperature ================================ */
+
+/* What the lists say. */
+typedef struct {
+    double position;  /* position_0, mm or ° */
+    double offset;  /* offset_0, mm or ° */
+    double coefficient;  /* mm per mm or ° per ° */
+} TemperatureTable;
+
+/* What may be measured while the machine runs; at the start it is what the lists say. */
+typedef struct {
+    double offset;
+    double coefficient;
+} TemperatureInputs;
+
+/* The values in force: the last ones that were finite. */
+typedef struct {
+    double offset;
+    double coefficient;
+} TemperatureState;
+
+/* ============================== compensations =============================== */
+
+#define CROSS 0
+#define PLANE 1
+#define CROSSTALK 2
+#define TEMPERATURE 3
+#define LEADSCREW 4  /* those before it are computed from raw setpoints; it takes its position with them */
+#define BACKLASH 5
+#define FRICTION 6  /* those before it correct the setpoint; it adds to the motor current */
+#define KINDS 7
+
+/* What is fixed for the compensations of an axis. */
+typedef struct {
+    CrossTable cross;
+    PlaneTable plane;
+    CrosstalkTable crosstalk;
+    TemperatureTable temperature;
+    LeadscrewTable leadscrew;
+    BacklashTable backlash;
+    FrictionTable friction;
+} CompensationTables;
+
+/* What the compensations of an axis remember. */
+typedef struct {
+    CrossState cross;
+    CrosstalkState crosstalk;
+    TemperatureState temperature;
+    LeadscrewState leadscrew;
+    BacklashState backlash;
+    FrictionState friction;
+} CompensationStates;
+
+/* What the compensations of an axis are given besides its motion. */
+typedef struct {
+    TemperatureInputs temperature;
+} CompensationInputs;
+
+/* ================================== shift =================================== */
+
+/* An offset that NO_MOVE has taken out of the output. */
+typedef struct {
+    double now;  /* in force */
+    double waiting;  /* absorbed since the last release began */
+    double released;  /* as it was when the release began */
+} Shift;
+
+/* The shift of an axis: what it has before the leadscrew, whose input contains it, and behind. */
+typedef struct {
+    Shift before;
+    Shift behind;
+    int32_t step;  /* of the release: shift_cycles … 0; 0: none is under way */
+} ShiftState;
+
 /* ============================ volumetric_records ============================
  *
  * Records of the volumetric compensation. Lengths in mm, positions of rotary axes in °, angular errors in rad.
  *
- * An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Error `ERRORS_OF_AXIS · letter + k` is
- * X0 Y0 Z0 A0 B0 C0 (k = 0 … 5) or EX EY EZ EA EB EC (k = 6 … 11) of that axis.
+ * An axis of the model is meant by its letter's number: X, Y, Z, A, B, C = 0 … 5. Its twelve errors begin at
+ * `ERRORS_OF_AXIS · letter`: the position errors X0 Y0 Z0 A0 B0 C0, then the component errors EX EY EZ EA EB EC.
  */
 
 #define VOLUMETRICS 5  /* P-STUP-00101 */
@@ -23,7 +318,16 @@
 #define LINEAR 3
 #define LETTERS 6
 #define ERRORS_OF_AXIS 12
-#define ERRORS 72
+#define ERRORS 72  /* LETTERS * ERRORS_OF_AXIS */
+
+#define X0 0  /* first of the position errors of an axis, lengths: X0, Y0, Z0 */
+#define A0 3  /* and angles: A0, B0, C0 */
+#define B0 4
+#define C0 5
+#define EX 6  /* first of its component errors: EX, EY, EZ */
+#define EA 9  /* and EA, EB, EC */
+#define EB 10
+#define EC 11
 
 #define INTERPOLATE_GRID 0
 #define INTERPOLATE_SCATTER 1
@@ -47,7 +351,8 @@ typedef struct {
     int32_t values;
     int32_t arguments;  /* 0 … 6 */
     int32_t argument[LETTERS];  /* letter of each */
-    bool folded[LETTERS];  /* its position is folded into 0° … 360° */
+    double start[LETTERS];  /* of the turn that its position is folded into */
+    double period[LETTERS];  /* length of that turn; 0: not folded */
     int32_t points[LETTERS];  /* of the grid along it */
     int32_t knots[LETTERS];  /* where they are in the pool, ascending */
     int32_t steps[LETTERS];  /* where the pool has for each of points + 1 equal steps the knot before it */
@@ -122,206 +427,35 @@ typedef struct {
  * The four records of the engine: what is fixed (Tables), remembered (State), given (Inputs) and returned (Outputs).
  *
  * Positions are in mm or °, velocities and accelerations in the same unit per s and s². A table of numbers is an offset
- * into a pool. An axis is meant by its index, 0 … `axis_count` − 1.
+ * into the pool. An axis is meant by its index, 0 … `axis_count` − 1, a kind of compensation by its number.
  */
-
-#define AXES 32
-#define DELAY_LINE 249  /* delay_cycles < 249 (P-COMP-00058) */
 
 #define ERROR_INPUT 901  /* AXC-901: an input of the axis is not a finite number */
 #define ERROR_UPDATE 902  /* AXC-902: an update does not fit the running machine */
-#define ERROR_LEADSCREW_POINTS 110638  /* an update changes max_points (P-COMP-00059) */
-#define ERROR_CROSS_POINTS 110639  /* P-COMP-00060 */
-#define ERROR_PLANE_POINTS 110640  /* P-COMP-00061 */
-#define ERROR_FRICTION_POINTS 110641  /* P-COMP-00062 */
 
-/* How a compensation switches on and off. */
-typedef struct {
-    bool configured;
-    bool manual;  /* by command only; reset, program end and release switch off */
-    bool at_standstill;  /* a command waits until the slave stands still */
-    int32_t cycles;  /* of the transition, at least 1 (1: at once) */
-} SwitchTable;
-
-/* Where a compensation stands between off and on. */
-typedef struct {
-    bool enable;  /* the input in the last cycle: its edges are the commands */
-    bool command;  /* what was last commanded */
-    bool granted;  /* the command, once it may act */
-    bool no_move;  /* the command came with NO_MOVE */
-    int32_t step;  /* k of w(k) */
-    double weight;  /* w(k), 0 … 1 */
-    double absorbed;  /* change of the weight that NO_MOVE takes out of the output, this cycle only */
-} SwitchState;
-
-/* Piecewise linear y(x): `points` abscissae and as many ordinates in the pool. */
-typedef struct {
-    int32_t points;
-    int32_t x;
-    int32_t y;
-} Curve;
-
-/* Where a search ended last time. */
-typedef struct {
-    int32_t interval;
-} Lookup;
-
-/* Cross compensation (kw.crosscomp). */
-typedef struct {
-    SwitchTable switching;
-    int32_t max_points;  /* entries the controller reserves */
-    int32_t master;
-    Curve curve;
-} CrossTable;
-
-/* What the cross compensation remembers. */
-typedef struct {
-    SwitchState switching;
-    Lookup lookup;
-} CrossState;
-
-/* Plane compensation (kw.crosscomp2); correction[j][i] at values + j * points1 + i. */
-typedef struct {
-    SwitchTable switching;
-    int32_t max_points;  /* entries the controller reserves */
-    int32_t master1;
-    int32_t master2;
-    double start1;
-    double start2;
-    double interval1;
-    double interval2;
-    int32_t points1;
-    int32_t points2;
-    int32_t values;
-} PlaneTable;
-
-/* What the plane compensation remembers. */
-typedef struct {
-    SwitchState switching;
-} PlaneState;
-
-/* Crosstalk compensation (kw.crosstalk).
- *
- * `values` has four blocks of `tests` numbers: acceleration in positive and negative motion, deceleration in
- * positive and negative motion. In the old variant `curve` is the correction over the signed acceleration.
- */
-typedef struct {
-    SwitchTable switching;
-    int32_t variant;  /* one of the CROSSTALK_ constants */
-    int32_t master;
-    int32_t adaptation1;
-    int32_t adaptation2;
-    double acceleration;
-    double deceleration;  /* < 0 */
-    bool velocity_dependent;
-    Curve curve;
-    int32_t tests;
-    int32_t values;
-    int32_t points1;  /* grid: abscissae of the first adaptation axis; values are [j][i] as in a plane */
-    int32_t points2;
-    int32_t x1;  /* abscissae of the first adaptation axis, or the tests' positions */
-    int32_t x2;
-    int32_t triangles;  /* scattered tests: three test numbers each */
-    int32_t triangle;
-    int32_t edges;  /* hull of the tests: two test numbers each */
-    int32_t edge;
-} CrosstalkTable;
-
-/* What the crosstalk compensation remembers. */
-typedef struct {
-    SwitchState switching;
-    Lookup lookup;
-    Lookup lookup2;
-    bool negative;  /* the master's last motion was negative */
-    bool outside;  /* the adaptation axes have left the hull of the tests */
-} CrosstalkState;
-
-/* Leadscrew error compensation (kw.ssfk); both directions share the interpolation points. */
-typedef struct {
-    SwitchTable switching;
-    int32_t max_points;  /* entries the controller reserves */
-    Curve positive;
-    Curve negative;
-    bool bilateral;
-    bool without_other;
-    bool modulo;
-    int32_t reversal_cycles;  /* of the change-over between the directions, at least 1 (1: at once) */
-} LeadscrewTable;
-
-/* What the leadscrew compensation remembers. */
-typedef struct {
-    SwitchState switching;
-    Lookup lookup;
-    double position;  /* input when it last changed */
-    bool backward;  /* its last change was negative */
-    int32_t reversal_step;  /* reversal_cycles: positive values, 0: negative values */
-} LeadscrewState;
-
-/* Friction compensation (frict_comp). */
-typedef struct {
-    SwitchTable switching;
-    int32_t max_points;  /* entries the controller reserves */
-    Curve curve;
-    double scaling;
-    double position_delay;
-    int32_t lookahead;
-    int32_t delay;
-} FrictionTable;
-
-/* What the friction compensation remembers. */
-typedef struct {
-    SwitchState switching;
-    Lookup lookup;
-    int32_t direction;  /* sign of the last velocity that was not 0 */
-    double reversal_position;
-    bool built_up;  /* the axis has gone position_delay since */
-    int32_t since_reversal;  /* cycles, at most lookahead */
-    int32_t head;  /* where the delay line is written next */
-    double line[DELAY_LINE];
-} FrictionState;
-
-/* The offsets that NO_MOVE has taken out of the output: what waits, and what is being released. */
-typedef struct {
-    double before_leadscrew;  /* of cross, plane and crosstalk, in force now: the leadscrew's input contains it */
-    double leadscrew;
-    double waiting_before_leadscrew;  /* absorbed since the last release began */
-    double waiting_leadscrew;
-    double released_before_leadscrew;  /* as it was when the release began */
-    double released_leadscrew;
-    int32_t step;  /* of the release: shift_cycles … 0; 0: none is under way */
-} ShiftState;
-
-/* What is fixed for an axis; its tables lie in its pool. */
+/* What is fixed for an axis. */
 typedef struct {
     int32_t number;  /* logical axis number */
-    const double *pool;
+    int32_t first;  /* of its numbers in the pool */
+    int32_t numbers;
     double modulo_range;  /* 0: no modulo axis */
     int32_t shift_cycles;  /* over which a shift is released, at least 1 */
-    CrossTable cross;
-    PlaneTable plane;
-    CrosstalkTable crosstalk;
-    LeadscrewTable leadscrew;
-    FrictionTable friction;
+    SwitchTable switching[KINDS];
+    CompensationTables compensation;
 } AxisTable;
 
-/* What an axis remembers. Its setpoint, velocity and acceleration are the last ones that were finite. */
+/* What an axis remembers. */
 typedef struct {
     bool started;
     bool held;  /* this cycle's inputs cannot be used */
-    bool moving;  /* the setpoint changes or a velocity is commanded */
-    double setpoint;
-    double velocity;
-    double acceleration;
+    bool released;  /* the input in the last cycle */
     int32_t error;  /* stays until reset */
     bool stop_request;  /* stays until reset, or until a volumetric compensation is switched on again */
     double volumetric_correction;  /* of all volumetric compensations, this cycle */
     double volumetric_shift;  /* what they have absorbed */
     ShiftState shift;
-    CrossState cross;
-    PlaneState plane;
-    CrosstalkState crosstalk;
-    LeadscrewState leadscrew;
-    FrictionState friction;
+    SwitchState switching[KINDS];
+    CompensationStates compensation;
 } AxisState;
 
 /* What the controller says about an axis in this cycle. */
@@ -333,46 +467,36 @@ typedef struct {
     bool referenced;
     bool fault;
     bool no_move;
-    bool cross_enable;
-    bool plane_enable;
-    bool crosstalk_enable;
-    bool leadscrew_enable;
-    bool friction_enable;
+    bool released;  /* a rising edge: the axis is given back, manual compensations off */
+    bool enable[KINDS];
+    CompensationInputs compensation;
 } AxisInputs;
 
 /* What the engine returns for an axis. */
 typedef struct {
     double corrected_setpoint;
-    double current;
     double display_position;
     double correction;  /* sum of all */
-    double cross_correction;
-    double plane_correction;
-    double crosstalk_correction;
-    double leadscrew_correction;
+    double contribution[KINDS];  /* to the setpoint; of friction: to the current */
+    bool active[KINDS];
     double volumetric_correction;
     double setpoint_shift;
-    bool cross_active;
-    bool plane_active;
-    bool crosstalk_active;
-    bool leadscrew_active;
-    bool friction_active;
     bool stop_request;
     int32_t error;
 } AxisOutputs;
 
-/* Everything that is fixed while the machine runs. */
+/* Everything that is fixed while the machine runs, besides the pool of numbers. */
 typedef struct {
     double cycle_time;
     int32_t axis_count;
     AxisTable axis[AXES];
     int32_t volumetrics;  /* the last configured one and those before it */
     VolumetricTable volumetric[VOLUMETRICS];
-    const double *pool;  /* of the volumetric compensations */
 } Tables;
 
 /* Everything that is remembered from cycle to cycle; it holds no references, a copy is a snapshot. */
 typedef struct {
+    Motion motion;
     AxisState axis[AXES];
     double tool_length;  /* mm; the last one that was finite */
     VolumetricState volumetric[VOLUMETRICS];
@@ -393,33 +517,8 @@ typedef struct {
     VolumetricOutputs volumetric[VOLUMETRICS];
 } Outputs;
 
-/* ================================ crosstalk ================================= */
-
-#define CROSSTALK_CURVE 0  /* manual 001: linear over the acceleration */
-#define CROSSTALK_CONSTANT 1  /* mode 1 */
-#define CROSSTALK_LINE 2  /* mode 2 */
-#define CROSSTALK_GRID 3  /* mode 3, tests on a full rectangular grid */
-#define CROSSTALK_TRIANGLES 4  /* mode 3, scattered tests */
-
-/* barycentric coordinate of a point that rounding puts just outside a triangle, as flat as they come */
-#define ON_EDGE (-1e-7)
-
-/* =============================== trigonometry =============================== */
-
-#define QUARTER_PI 0.7853981633974483
-#define HALF_PI 1.5707963267948966
-#define TWO_OVER_PI 0.6366197723675814
-#define HALF_PI_HEAD 1.57079632673412561417
-#define HALF_PI_MIDDLE 6.07710050630396597660e-11
-#define HALF_PI_TAIL 2.02226624879595063154e-21
-
-/* ================================ leadscrew ================================= */
-
-#define ROUNDING 1e-9  /* mm or °: a change of the input below this is rounding, not motion */
-
 /* ============================ volumetric_errors ============================= */
 
-#define FULL_TURN 360.0
 #define AT_NODE 1e-30  /* squared distance below which a position is a node */
 
 /* ============================= volumetric_model ============================= */
@@ -438,32 +537,34 @@ typedef struct {
 
 #define LARGEST 1e15  /* an input beyond this is taken for infinite: sums with it could overflow */
 
-/* =================================== fit ==================================== */
-
-#define CYCLES_MAX 20  /* of a transition (P-COMP-00026, P-AXIS-00243) */
-#define LOOKAHEAD_MAX 4  /* P-COMP-00044 */
-
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Tell whether a kind has been used where its table says nothing: the machine's user should know. */
+AXCOMP_API bool axcomp_has_left_table(int32_t kind, const CompensationStates *states);
 
 /* Set inputs that are all 0 to what they are at the start. */
 AXCOMP_API void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs);
 
 /* Run one cycle: the outputs belong to these inputs. */
-AXCOMP_API void axcomp_cycle(const Tables *tables, State *state, const Inputs *inputs, Outputs *outputs);
+AXCOMP_API void axcomp_cycle(const Tables *tables, const double *pool, State *state, const Inputs *inputs,
+        Outputs *outputs);
 
 /* Return why an axis cannot take new tables, 0 if it can. */
 AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after);
 
+/* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
+AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given);
+
 /* Make the state of the volumetric compensations fit their new tables. */
 AXCOMP_API void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *state, Outputs *outputs);
 
-/* Make the state of an axis fit its new tables (`update_error` is 0); what no longer exists puts out 0. */
-AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, const AxisTable *after, AxisState *axis, AxisOutputs *out);
+/* Follow the numbers of an axis to another place in the pool, where they begin at `first`. */
+AXCOMP_API void axcomp_move_axis_table(AxisTable *table, int32_t first);
 
 /* Tell whether the tables can be used with a pool of so many numbers. */
-AXCOMP_API bool axcomp_tables_fit(const Tables *tables, int32_t numbers);
+AXCOMP_API bool axcomp_tables_fit(const Tables *tables, const double *pool, int32_t numbers);
 
 #ifdef __cplusplus
 }

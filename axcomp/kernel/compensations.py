@@ -1,0 +1,169 @@
+"""The compensations of an axis in the order of a cycle (semantics §3), and what each does when its turn comes.
+
+A new kind stands here as a number, as a field of the three records, and in the functions below; everything else that
+the engine does with compensations are loops over the numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_fits, backlash_value
+from .cross import CrossState, CrossTable, adopt_cross, cross_fits, cross_value, move_cross
+from .crosstalk import CrosstalkState, CrosstalkTable, adopt_crosstalk, crosstalk_fits, crosstalk_value, move_crosstalk
+from .friction import FrictionState, FrictionTable, adopt_friction, friction_current, friction_fits, move_friction
+from .leadscrew import LeadscrewState, LeadscrewTable, adopt_leadscrew, leadscrew_fits, leadscrew_value, move_leadscrew
+from .motion import Motion
+from .plane import PlaneTable, move_plane, plane_fits, plane_value
+from .record import Vec
+from .temperature import (
+    TemperatureInputs,
+    TemperatureState,
+    TemperatureTable,
+    adopt_temperature,
+    begin_temperature,
+    take_temperature,
+    temperature_fits,
+    temperature_value,
+)
+
+CROSS = 0
+PLANE = 1
+CROSSTALK = 2
+TEMPERATURE = 3
+LEADSCREW = 4  # those before it are computed from raw setpoints; it takes its position with them
+BACKLASH = 5
+FRICTION = 6  # those before it correct the setpoint; it adds to the motor current
+KINDS = 7
+
+
+@dataclass(slots=True)
+class CompensationTables:
+    """What is fixed for the compensations of an axis."""
+
+    cross: CrossTable
+    plane: PlaneTable
+    crosstalk: CrosstalkTable
+    temperature: TemperatureTable
+    leadscrew: LeadscrewTable
+    backlash: BacklashTable
+    friction: FrictionTable
+
+
+@dataclass(slots=True)
+class CompensationStates:
+    """What the compensations of an axis remember."""
+
+    cross: CrossState
+    crosstalk: CrosstalkState
+    temperature: TemperatureState
+    leadscrew: LeadscrewState
+    backlash: BacklashState
+    friction: FrictionState
+
+
+@dataclass(slots=True)
+class CompensationInputs:
+    """What the compensations of an axis are given besides its motion."""
+
+    temperature: TemperatureInputs
+
+
+def compensation_value(
+    kind: int,
+    pool: Vec,
+    tables: CompensationTables,
+    states: CompensationStates,
+    motion: Motion,
+    axis: int,
+    position: float,
+    cycle_time: float,
+) -> float:
+    """Return what a kind adds to the setpoint or the current of an axis at full weight.
+
+    ``position``: the setpoint with all that was added before.
+    """
+    if kind == CROSS:
+        return cross_value(pool, tables.cross, states.cross, motion)
+    if kind == PLANE:
+        return plane_value(pool, tables.plane, motion)
+    if kind == CROSSTALK:
+        return crosstalk_value(pool, tables.crosstalk, states.crosstalk, motion)
+    if kind == TEMPERATURE:
+        return temperature_value(tables.temperature, states.temperature, motion.axis[axis].setpoint)
+    if kind == LEADSCREW:
+        if tables.leadscrew.without_other:
+            position = motion.axis[axis].setpoint
+        return leadscrew_value(pool, tables.leadscrew, states.leadscrew, position)
+    if kind == BACKLASH:
+        return backlash_value(tables.backlash, states.backlash, motion.axis[axis].direction)
+    return friction_current(pool, tables.friction, states.friction, motion.axis[axis], cycle_time)
+
+
+def is_renewed(kind: int, states: CompensationStates, given: CompensationInputs) -> bool:
+    """Take over the inputs of a kind; True: its values change by them, and are to blend in."""
+    if kind == TEMPERATURE:
+        return take_temperature(states.temperature, given.temperature)
+    return False
+
+
+def has_left_table(kind: int, states: CompensationStates) -> bool:
+    """Tell whether a kind has been used where its table says nothing: the machine's user should know."""
+    return kind == CROSSTALK and states.crosstalk.outside
+
+
+def begin_inputs(tables: CompensationTables, given: CompensationInputs) -> None:
+    """Set the inputs to what they are before anybody sets them."""
+    begin_temperature(tables.temperature, given.temperature)
+
+
+def adopt_inputs(before: CompensationTables, after: CompensationTables, given: CompensationInputs) -> None:
+    """Let inputs that nobody has set follow an update."""
+    adopt_temperature(before.temperature, after.temperature, given.temperature)
+
+
+def adopt_compensation(
+    kind: int, before: CompensationTables, after: CompensationTables, states: CompensationStates
+) -> None:
+    """Make the state of a kind fit its new table."""
+    if kind == CROSS:
+        adopt_cross(states.cross)
+    elif kind == CROSSTALK:
+        adopt_crosstalk(states.crosstalk)
+    elif kind == LEADSCREW:
+        adopt_leadscrew(before.leadscrew, after.leadscrew, states.leadscrew)
+    elif kind == BACKLASH:
+        adopt_backlash(before.backlash, after.backlash, states.backlash)
+    elif kind == FRICTION:
+        adopt_friction(after.friction, states.friction)
+
+
+def move_compensation(kind: int, tables: CompensationTables, by: int) -> None:
+    """Follow the numbers of a kind to another place in the pool."""
+    if kind == CROSS:
+        move_cross(tables.cross, by)
+    elif kind == PLANE:
+        move_plane(tables.plane, by)
+    elif kind == CROSSTALK:
+        move_crosstalk(tables.crosstalk, by)
+    elif kind == LEADSCREW:
+        move_leadscrew(tables.leadscrew, by)
+    elif kind == FRICTION:
+        move_friction(tables.friction, by)
+
+
+def compensation_fits(kind: int, pool: Vec, tables: CompensationTables, axes: int, numbers: int) -> bool:
+    """Tell whether the table of a kind can be used: every index means something, every divisor is not 0."""
+    if kind == CROSS:
+        return cross_fits(pool, tables.cross, axes, numbers)
+    if kind == PLANE:
+        return plane_fits(tables.plane, axes, numbers)
+    if kind == CROSSTALK:
+        return crosstalk_fits(pool, tables.crosstalk, axes, numbers)
+    if kind == TEMPERATURE:
+        return temperature_fits(tables.temperature)
+    if kind == LEADSCREW:
+        return leadscrew_fits(pool, tables.leadscrew, axes, numbers)
+    if kind == BACKLASH:
+        return backlash_fits(tables.backlash)
+    return friction_fits(pool, tables.friction, numbers)
