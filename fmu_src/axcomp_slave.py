@@ -12,7 +12,7 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from axcomp.fmu.instance import Instance
-from axcomp.lists.findings import Severity
+from axcomp.kinds.parameter import Severity
 
 STATUS = {Severity.ERROR: Fmi2Status.error, Severity.WARNING: Fmi2Status.warning, Severity.INFO: Fmi2Status.ok}
 CATEGORY = {Severity.ERROR: "logStatusError", Severity.WARNING: "logStatusWarning", Severity.INFO: "logAll"}

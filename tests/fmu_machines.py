@@ -5,18 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from axcomp.model.machine import (
-    Axis,
-    AxisType,
-    Cross,
-    Crosstalk,
-    CrosstalkTest,
-    Friction,
-    Leadscrew,
-    Machine,
-    ModuloRange,
-    Plane,
-)
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkTest
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 
 def three_axes(scale: float = 1.0) -> Machine:

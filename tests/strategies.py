@@ -10,20 +10,13 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
-from axcomp.model.delaunay import triangulate
-from axcomp.model.machine import (
-    Axis,
-    AxisType,
-    Cross,
-    Crosstalk,
-    CrosstalkCurve,
-    CrosstalkTest,
-    Friction,
-    Leadscrew,
-    Machine,
-    ModuloRange,
-    Plane,
-)
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from axcomp.kinds.delaunay import triangulate
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 POSITION_MAX = 200_000.0
 """mm or °; the lists hold SGN32 in 0.1 µm."""

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import math
 
-from ..model.machine import AXES_MAX, Axis, Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Machine, Plane
+from ..kinds.cross import Cross
+from ..kinds.crosstalk import Crosstalk, CrosstalkTest
+from ..kinds.friction import Friction
+from ..kinds.leadscrew import Leadscrew
+from ..kinds.plane import Plane
+from ..model.machine import AXES_MAX, Axis, Machine
 
 
 def machine_of(axes: int, points: int) -> Machine:

@@ -13,10 +13,10 @@ from ..interface.variable import Variable, with_causality
 from ..interface.variables import variables_of
 from ..lists import read_machine
 from ..model.companions import fmu_sources, models
-from ..model.machine import Machine
+from ..model.machine import CYCLE_TIME, Machine
 from ..native.compiler import PLATFORMS, compile_library, compile_program, compiler_of, own_platform
 from ..native.image import image_of
-from ..runtime.compile import CYCLE_TIME, compile_tables
+from ..runtime.compile import compile_tables
 from .clock import Sample
 from .machines import machine_of
 

@@ -15,7 +15,7 @@ from ..analysis.budget.uncertainty import read_uncertainties
 from ..engine.trajectory import read_input
 from ..lists import Severity, read_machine
 from ..model.companions import machine_path
-from ..runtime.compile import CYCLE_TIME
+from ..model.machine import CYCLE_TIME
 
 ROWS = 15
 

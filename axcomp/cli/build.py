@@ -14,9 +14,9 @@ from ..fmu.native_package import NoCompilerError, package_native, write_image
 from ..fmu.package import package_axcomp
 from ..lists import Reading
 from ..model.companions import machine_path, models
+from ..model.machine import CYCLE_TIME
 from ..native.compiler import PLATFORMS
 from ..plant.fmu import package_plant
-from ..runtime.compile import CYCLE_TIME
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -150,6 +150,6 @@ def _summary(built: Built) -> Iterator[str]:
     yield f"{built.path.name}: {count['input']} inputs, {count['output']} outputs"
     volumetric = built.machine.volumetric
     for axis in built.machine.axes:
-        kinds = [kind for kind, _ in axis.compensations()]
+        kinds = [one.kind for one in axis.compensations]
         kinds += [f"volumetric[{one.index}]" for one in volumetric if axis.number in dict(one.axes).values()]
         yield f"  {axis.name}: {', '.join(kinds) or 'no compensation'}"

@@ -69,7 +69,7 @@ def _do_check(options: argparse.Namespace) -> int:
 
 def _summary(reading: Reading, counts: dict[Severity, int]) -> str:
     axes = reading.machine.axes
-    compensations = sum(1 for axis in axes for _ in axis.compensations())
+    compensations = sum(len(axis.compensations) for axis in axes)
     found = ", ".join(_counted(count, severity.value) for severity, count in counts.items())
     volumetric = _counted(len(reading.machine.volumetric), "volumetric compensation")
     of_axes = f"{_counted(len(axes), 'axis')} with {_counted(compensations, 'compensation')}"
@@ -90,7 +90,7 @@ def _as_json(reading: Reading, counts: dict[Severity, int], judgement: Judgement
                 "number": axis.number,
                 "name": axis.name,
                 "type": axis.type.name.lower(),
-                "compensations": [kind for kind, _ in axis.compensations()],
+                "compensations": [one.kind for one in axis.compensations],
             }
             for axis in reading.machine.axes
         ],

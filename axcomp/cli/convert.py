@@ -13,10 +13,11 @@ from pathlib import Path
 from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, per_mille, recognized, written
 from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
 from ..convert.table import CannotHoldError, CompensationTable, FormatError
+from ..kinds import KINDS
 from ..lists import Severity, read_machine, write_machine
 from ..lists.grammar import decode
 from ..model.companions import machine_path
-from ..model.machine import KINDS, Machine
+from ..model.machine import Machine
 
 _NAMES = (LISTS, *FORMATS)
 

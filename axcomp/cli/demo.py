@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from ..model.companions import machine_path, models
-from ..runtime.compile import CYCLE_TIME
+from ..model.machine import CYCLE_TIME
 
 PICTURE = "demo.png"
 

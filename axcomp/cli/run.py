@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..engine.engine import COMMAND, Engine
 from ..engine.nc_scanner import NcError
 from ..model.companions import machine_path, models
-from ..runtime.compile import CYCLE_TIME
+from ..model.machine import CYCLE_TIME
 
 TIME = "time"
 _ON_TIME = 1e-6

@@ -9,9 +9,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..kinds import KINDS
 from ..lists import Severity, read_machine
 from ..model.companions import machine_path
-from ..model.machine import KINDS, Machine
+from ..model.machine import Machine
 from ..plot.content import Content, NotComparableError, Records
 from ..plot.contents import contents_of
 from ..plot.page import overview, page, shown

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ..model.machine import Axis, AxisType, Cross, Leadscrew, Machine, ModuloRange
+from ..kinds.cross import Cross
+from ..kinds.leadscrew import Leadscrew
+from ..model.machine import Axis, AxisType, Machine, ModuloRange
 from .table import CannotHoldError, CompensationTable, Unit
 
 CONVERTED = ("leadscrew", "cross")
@@ -40,7 +42,8 @@ def tables_of(machine: Machine, axis: str | None = None, kind: str | None = None
         raise CannotHoldError(f"there is no axis {axis!r}; the machine has {names}")
     tables = []
     for one in machine.axes:
-        for name, compensation in one.compensations():
+        for compensation in one.compensations:
+            name = compensation.kind
             if axis not in {None, one.name} or kind not in {None, name}:
                 continue
             if isinstance(compensation, Leadscrew):
@@ -176,7 +179,7 @@ def _with_leadscrew(axis: Axis, table: CompensationTable) -> Axis:
         modulo=table.period is not None,
         max_points=max(old.max_points, len(table.positions)),
     )
-    return replace(axis, leadscrew=leadscrew, modulo=modulo)
+    return replace(axis.having(leadscrew), modulo=modulo)
 
 
 def _with_cross(axis: Axis, master: int, table: CompensationTable) -> Axis:
@@ -194,4 +197,4 @@ def _with_cross(axis: Axis, master: int, table: CompensationTable) -> Axis:
         corrections=table.positive,
         max_points=max(old.max_points, len(table.positions)),
     )
-    return replace(axis, cross=cross)
+    return axis.having(cross)

@@ -18,9 +18,8 @@ from ..fmu.archive import BuildError
 from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native
 from ..fmu.package import package_axcomp
-from ..model.machine import Machine
+from ..model.machine import CYCLE_TIME, Machine
 from ..plant.fmu import package_plant, read_plant
-from ..runtime.compile import CYCLE_TIME
 from .coupling import COMMANDS, COMPENSATION, PLANT, Job, Recorded, read_results, write_job
 from .evaluation import Outcome, Record, outcomes
 from .trials import VOLUMETRIC, Trial, name_of, trials_of
@@ -117,9 +116,7 @@ def _commands(machine: Machine, trial: Trial) -> Array:
 
 
 def _disabled(machine: Machine, kinds: Sequence[str]) -> tuple[str, ...]:
-    names = [
-        f"{name_of(axis)}.{kind}.enable" for axis in machine.axes for kind, _ in axis.compensations() if kind in kinds
-    ]
+    names = [f"{name_of(axis)}.{kind}.enable" for axis in machine.axes for kind in axis.kinds if kind in kinds]
     if VOLUMETRIC in kinds:
         names += [f"volumetric[{volumetric.index}].enable" for volumetric in machine.volumetric]
     return tuple(names)

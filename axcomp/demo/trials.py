@@ -15,7 +15,10 @@ import numpy.typing as npt
 
 from ..engine.motion import Array, Course, Limits, Setpoints, move
 from ..interface.variables import identifier
-from ..model.machine import KINDS, Axis, Crosstalk, Machine, Plane
+from ..kinds import KIND_NAMES, KINDS
+from ..kinds.crosstalk import Crosstalk
+from ..kinds.plane import Plane
+from ..model.machine import Axis, Machine
 
 Cycles = npt.NDArray[np.intp]
 
@@ -64,7 +67,7 @@ class Trial:
     @property
     def off(self) -> tuple[str, ...]:
         """The compensations that are off in the run *without*."""
-        return KINDS if self.kind == "all" else (self.kind,)
+        return KIND_NAMES if self.kind == "all" else (self.kind,)
 
     @property
     def never_on(self) -> tuple[str, ...]:

@@ -4,30 +4,30 @@ from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
-from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..interface.slot import Slot
 from ..interface.variable import Value, Variable, with_causality
-from ..interface.variables import Naming, by_name, record_of, variables_of
+from ..interface.variables import Naming, by_name, slot_of, variables_of
 from ..lists import Finding, read_machine
-from ..model.machine import Machine
+from ..model.machine import CYCLE_TIME, Machine
 from ..native.library import compiled_kernel
 from ..native.runner import CompiledTables, run_compiled
-from ..runtime.compile import CYCLE_TIME
 from ..runtime.runtime import Runtime
 from .nc_control import NcControl
 from .nc_scanner import NcError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from ..kernel.records import Inputs
 
 COMMAND = "command"
 """Column of a trajectory that has NC commands."""
@@ -118,8 +118,10 @@ class Engine:
         self.runtime = Runtime(machine, cycle_time)
         self._compiled: CompiledTables | None = None
         self.nc = NcControl(self.runtime, lists)
-        self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._record(v) is not None)
+        self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._slot(v) is not None)
         self._by_name = by_name(self.variables)
+        self._slots: dict[str, Slot] = {}
+        self._bound: Inputs | None = None
         self._outputs = with_causality(self.variables, "output")
 
     @property
@@ -131,11 +133,11 @@ class Engine:
         """Set inputs by name; they are held until set again. KeyError with the known names for an unknown one."""
         for name, value in values.items():
             variable = self._input(name)
-            setattr(self._record(variable), variable.field, type(variable.start)(value))
+            self._slot_of(variable).set(type(variable.start)(value))
 
     def get(self) -> dict[str, Value]:
         """Return all outputs of the last cycle by name."""
-        return {variable.name: getattr(self._record(variable), variable.field) for variable in self._outputs}
+        return {variable.name: self._slot_of(variable).get() for variable in self._outputs}
 
     def step(self, values: Mapping[str, Value] | None = None, command: str = "") -> dict[str, Value]:
         """Set inputs, carry out an NC command, run one cycle, and return its outputs by name.
@@ -176,7 +178,7 @@ class Engine:
         columns = [_column(variable, trajectory[variable.name]) for variable in given]
         if not given:
             given = [next(variable for variable in self.variables if variable.causality == "input")]
-            columns = [np.full(cycles, getattr(self._record(given[0]), given[0].field))]
+            columns = [np.full(cycles, self._slot_of(given[0]).get())]
         blocks = [str(block) for block in np.asarray(trajectory.get(COMMAND, [])).tolist()]
         for row, block in enumerate(blocks):
             with _naming_row(row):
@@ -208,34 +210,40 @@ class Engine:
         self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
     ) -> dict[str, NDArray[Any]]:
         if self._compiled is None or self._compiled.tables is not self.runtime.tables:
-            self._compiled = CompiledTables(self.runtime.tables)
+            self._compiled = CompiledTables(self.runtime.tables, self.runtime.pool)
         rows = np.column_stack([column.astype(np.float64) for column in columns])
         results = run_compiled(kernel, self._compiled, self.runtime, given, np.ascontiguousarray(rows), self._outputs)
         return {v.name: results[:, k].astype(type(v.start)) for k, v in enumerate(self._outputs)}
 
     def _run_in_python(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
         cycles = len(columns[0])
-        setters = [(self._record(variable), variable.field) for variable in given]
-        groups = self._output_groups()
+        setters = [self._slot_of(variable) for variable in given]
+        getters = [self._slot_of(variable) for variable in self._outputs]
         values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
         run_cycle = self.runtime.cycle
         for first in range(0, cycles, CHUNK):
             last = min(first + CHUNK, cycles)
-            rows: list[list[tuple[Value, ...]]] = [[] for _ in groups]
+            kept: list[list[Value]] = []
             for row in zip(*(column[first:last].tolist() for column in columns), strict=True):
-                for (record, field), value in zip(setters, row, strict=True):
-                    setattr(record, field, value)
+                for (_, write, record, key), value in zip(setters, row, strict=True):
+                    write(record, key, value)
                 run_cycle()
-                for group, kept in zip(groups, rows, strict=True):
-                    kept.append(group.read())
-            for group, kept in zip(groups, rows, strict=True):
-                for variable, column in zip(group.variables, zip(*kept, strict=True), strict=True):
-                    values[variable.name][first:last] = column
+                kept.append([read(record, key) for read, _, record, key in getters])
+            for variable, column in zip(self._outputs, zip(*kept, strict=True), strict=True):
+                values[variable.name][first:last] = column
         return values
 
-    def _record(self, variable: Variable) -> Any:
+    def _slot(self, variable: Variable) -> Slot | None:
         records = (self.runtime.inputs, self.runtime.outputs)
-        return record_of(variable, variable.axis, *records, volumetric=variable.volumetric)
+        return slot_of(variable, variable.axis, *records, volumetric=variable.volumetric)
+
+    def _slot_of(self, variable: Variable) -> Slot:
+        """Return where an input or an output is; the runtime's records stay the same as long as it lives."""
+        if self._bound is not self.runtime.inputs:
+            found = ((v.name, self._slot(v)) for v in self.variables)
+            self._slots = {name: slot for name, slot in found if slot is not None}
+            self._bound = self.runtime.inputs
+        return self._slots[variable.name]
 
     def _input(self, name: str) -> Variable:
         variable = self._by_name.get(name)
@@ -243,28 +251,6 @@ class Engine:
             known = ", ".join(v.name for v in with_causality(self.variables, "input"))
             raise KeyError(f"{name} is no input; the inputs are {known}")
         return variable
-
-    def _output_groups(self) -> list[_OutputGroup]:
-        """Return the outputs record by record, so that one call reads all of an axis."""
-        by_record: dict[int, list[Variable]] = {}
-        for variable in self._outputs:
-            by_record.setdefault(id(self._record(variable)), []).append(variable)
-        return [_OutputGroup(self._reader(variables), variables) for variables in by_record.values()]
-
-    def _reader(self, variables: Sequence[Variable]) -> Callable[[], tuple[Value, ...]]:
-        """Return a function that reads the fields of one record, which is never a bare value but a tuple."""
-        record = self._record(variables[0])
-        if len(variables) == 1:
-            field = variables[0].field
-            return lambda: (getattr(record, field),)
-        return partial(attrgetter(*(variable.field for variable in variables)), record)
-
-
-class _OutputGroup(NamedTuple):
-    """The outputs of one record: ``read()`` returns their values."""
-
-    read: Callable[[], tuple[Value, ...]]
-    variables: list[Variable]
 
 
 def _length(columns: Mapping[str, ArrayLike]) -> int:

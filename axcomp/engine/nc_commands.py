@@ -10,10 +10,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from ..kinds import KINDS
 from ..model.volumetric import COMPENSATIONS_MAX, FILES_MAX, LINEAR
 from .nc_scanner import Cursor, NcError, Word, scan
 
-KINDS = {"CROSS": "cross", "PLANE": "plane", "LEAD": "leadscrew", "FRICT": "friction", "CROSSTALK": "crosstalk"}
+WORDS = {kind.word: name for name, kind in KINDS.items()}
 """Keyword of a command → kind of compensation."""
 
 
@@ -159,18 +160,18 @@ def _axis_command(cursor: Cursor) -> AxisCommand:
         else:
             kinds = switched[action.text == "ON"]
             before = len(kinds)
-            while (word := cursor.take_if(*KINDS)) is not None:
-                kinds.append(KINDS[word.text])
+            while (word := cursor.take_if(*WORDS)) is not None:
+                kinds.append(WORDS[word.text])
             if len(kinds) == before:
                 if action.text == "OFF":
-                    raise cursor.wrong(", ".join(KINDS))
+                    raise cursor.wrong(", ".join(WORDS))
                 all_on = True
         no_move = cursor.take_if("NO_MOVE") is not None or no_move
         if cursor.take_if("]"):
             return AxisCommand(
                 axis.place, axis.text, tuple(switched[True]), tuple(switched[False]), all_on, all_off, no_move
             )
-        more = (*KINDS, "NO_MOVE") if action.text != "OFF_ALL" else ("NO_MOVE",)
+        more = (*WORDS, "NO_MOVE") if action.text != "OFF_ALL" else ("NO_MOVE",)
         if (following := cursor.take_if("ON", "OFF", "OFF_ALL")) is None:
             raise cursor.wrong(", ".join((*more, "ON, OFF", "]")))
         action = following

@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from os import PathLike
 from typing import Any
 
+from ..kinds import KINDS
 from ..lists import Severity, reread_volumetric
-from ..model.machine import KINDS, Machine
+from ..model.machine import Machine
 from ..runtime.runtime import Runtime
 from .nc_commands import AxisCommand, Command, Variable, VolumetricSwitch, VolumetricUpdate, parse_block, parse_variable
 from .nc_scanner import Cursor, NcError, scan
-
-WITHOUT_FRICTION = "70495"
 
 
 class NcControl:
@@ -101,7 +100,7 @@ class NcControl:
         runtime = self._runtime
         index = _axis_index(command, runtime.machine)
         given, state = runtime.inputs.axis[index], runtime.state.axis[index]
-        configured = [kind for kind in KINDS if getattr(runtime.tables.axis[index], kind).switching.configured]
+        configured = list(runtime.machine.axes[index].kinds)
         if command.all_on:
             listed = ", ".join(configured) or "nothing"
             yield f"{command.axis}[COMP ON] names no kind of compensation: {listed} is switched on."
@@ -110,9 +109,10 @@ class NcControl:
         self._hold(given, "no_move", command.no_move)
         for kind, on in wanted.items():
             if kind in configured:
-                setattr(given, f"{kind}_enable", on)
+                number = KINDS[kind].number
+                given.enable[number] = on
                 # Edges of the input are the commands: one that repeats the last needs its edge too.
-                getattr(state, kind).switching.enable = not on
+                state.switching[number].enable = not on
 
     def _switch_volumetric(self, index: int, command: VolumetricSwitch) -> None:
         given, state = self._runtime.inputs.volumetric[index], self._runtime.state.volumetric[index]
@@ -170,6 +170,7 @@ def _axis_index(command: AxisCommand, machine: Machine) -> int:
 def _check_axis_command(command: AxisCommand, machine: Machine) -> None:
     axis = machine.axes[_axis_index(command, machine)]
     for kind in command.on:
-        if getattr(axis, kind) is None:
-            code = WITHOUT_FRICTION if kind == "friction" else ""
+        if kind not in axis.kinds:
+            code = KINDS[kind].inactive_code
+            code = "" if code.startswith("AXC") else code
             raise NcError(command.place, f"axis {axis.name} has no {kind} compensation to switch on", code)

@@ -39,8 +39,8 @@ class TcpModel:
     def __init__(self, volumetric: Volumetric) -> None:
         types = {letter: AxisType.TRANSLATORY if letter in LINEAR else AxisType.ROTARY for letter in LETTERS}
         axes = tuple(Axis(number, letter, types[letter]) for letter, number in volumetric.axes)
-        tables = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
-        self._pool, self._table = tables.pool, tables.volumetric[0]
+        tables, self._pool = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
+        self._table = tables.volumetric[0]
         # Axes without known errors get some here.
         self._table.exact[:] = [False] * len(LETTERS)
 

@@ -13,9 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..kinds.crosstalk import Crosstalk, CrosstalkTest
 from ..measurement.columns import LENGTHS, Column, read_columns
 from ..measurement.positioning import TARGET_DIGITS, whole_runs
-from ..model.machine import Crosstalk, CrosstalkTest
 from .creation import (
     LEFT_OUT,
     MEASURED,

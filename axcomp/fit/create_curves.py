@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..kinds.cross import Cross
+from ..kinds.leadscrew import Leadscrew
 from ..measurement.iso230 import SYMBOLS, evaluate
 from ..measurement.positioning import Positioning
-from ..model.machine import Cross, Leadscrew
 from ..plot.iso230 import DOWN, UP
 from .creation import (
     LEFT_OUT,

@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..kinds.friction import Friction
 from ..measurement.columns import Column, read_columns
 from ..measurement.positioning import whole_runs
-from ..model.machine import Friction
 from .creation import (
     LEFT_OUT,
     MEASURED,

@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..kinds.plane import Plane
 from ..measurement.columns import ANGLES, LENGTHS, Column, read_columns
 from ..measurement.positioning import TARGET_DIGITS, angular, thousandth, unit_of, whole_runs
-from ..model.machine import Plane
 from .creation import (
     LEFT_OUT,
     MEASURED,

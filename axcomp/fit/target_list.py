@@ -2,55 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-from ..lists import Reading, cross, crosstalk, friction, leadscrew, plane, read_machine
+from ..kinds import KINDS as _KINDS
+from ..kinds.parameter import ListKind, Severity, key_of
+from ..lists import Reading, read_machine
 from ..lists.axes import Axes, AxisSettings
 from ..lists.catalogue import CATALOGUE, parameter
-from ..lists.compensation import CompensationList
+from ..lists.compensation import TableReader
 from ..lists.edit import edited
 from ..lists.files import Files
-from ..lists.findings import Findings, Severity
+from ..lists.findings import Findings
 from ..lists.format import Lines
 from ..lists.grammar import decode
-from ..lists.parameter import ListKind, key_of
 from ..lists.start_up import START_UP_NAME, find_lists
 from ..lists.values import ListValues, read_values
 from ..measurement.columns import MeasurementError
 from ..model.machine import Axis, AxisType, ModuloRange
-
-
-@dataclass(frozen=True)
-class _Kind:
-    """How a kind of compensation stands in a list: its reader and writer, and what its entries begin with."""
-
-    read: Callable[[CompensationList], Any]
-    format: Callable[[Any, Lines], None]
-    prefix: str
-    heading: str
-    activated_by: str
-
-
-KINDS = {
-    "leadscrew": _Kind(
-        leadscrew.read_leadscrew, leadscrew.format_leadscrew, "kw.ssfk.", "Leadscrew compensation", "lr_param.ssfk"
-    ),
-    "cross": _Kind(cross.read_cross, cross.format_cross, "kw.crosscomp.", "Cross compensation", "lr_param.crosscomp"),
-    "plane": _Kind(plane.read_plane, plane.format_plane, "kw.crosscomp2.", "Plane compensation", "lr_param.crosscomp2"),
-    "crosstalk": _Kind(
-        crosstalk.read_crosstalk,
-        crosstalk.format_crosstalk,
-        "kw.crosstalk.",
-        "Crosstalk compensation",
-        "lr_param.crosstalk",
-    ),
-    "friction": _Kind(
-        friction.read_friction, friction.format_friction, "frict_comp.", "Friction compensation", "lr_param.frict_comp"
-    ),
-}
 
 _SETTINGS = {
     "max_points": "max_points",
@@ -151,9 +121,9 @@ class TargetList:
         about = [finding for finding in self.reading.findings if self._is_this(finding.file)]
         errors = sum(finding.severity is Severity.ERROR for finding in about)
         notes = [f"The list had {errors} errors before; axcomp check says which."] if errors else []
-        inactive = any(f.code in ("AXC-INACTIVE", "70495") and KINDS[kind].prefix in f.parameter for f in about)
+        inactive = any(f.code in ("AXC-INACTIVE", "70495") and _KINDS[kind].prefix in f.parameter for f in about)
         if inactive and self.present(kind) is None:
-            notes.append(f"{KINDS[kind].activated_by} of the axis list has to be 1 for the table to act.")
+            notes.append(f"{_KINDS[kind].activator.name} of the axis list has to be 1 for the table to act.")
         return notes
 
     def capacity(self, name: str) -> int:
@@ -175,7 +145,7 @@ class TargetList:
         Parameters
         ----------
         kind : str
-            One of ``KINDS``.
+            Name of one.
         compensation : Leadscrew, Cross, Plane, Crosstalk or Friction
             Its ``max_points``, ``manual_activation`` and the like do not count: the list's do.
         max_points : int, optional
@@ -186,11 +156,11 @@ class TargetList:
         ValueError
             A list cannot hold a value, or would not read back to what is meant.
         """
-        how = KINDS[kind]
+        how = _KINDS[kind]
         lines = Lines(ListKind.COMPENSATION)
         if max_points is not None:
             compensation = replace(compensation, max_points=max_points)
-        how.format(compensation, lines)
+        how.write(compensation, self.axis or Axis(self.number, ""), lines)
         owned = {
             row.name
             for row in CATALOGUE[ListKind.COMPENSATION]
@@ -202,7 +172,7 @@ class TargetList:
         if self._header:
             header = [f"{name:<40} {value}" for name, value in self._header.items()]
             data = edited(data, header, self._header, "Axis", keep_row_comments=True)
-        data = edited(data, new, owned, how.heading, self._rows_stay(kind, compensation))
+        data = edited(data, new, owned, how.title, self._rows_stay(kind, compensation))
         self._check(kind, compensation, data, max_points is not None)
         return data
 
@@ -229,7 +199,7 @@ class TargetList:
         axis = AxisSettings(self.number, type=AxisType.TRANSLATORY, modulo=self._modulo())
         axes = Axes(findings, invent=True)
         axes.add(axis, self.values.file, 0, "")
-        return KINDS[kind].read(CompensationList(values, axis, axes, findings))
+        return _KINDS[kind].read(TableReader(values, axis, axes, findings))
 
     def _modulo(self) -> ModuloRange | None:
         return ModuloRange(-1e9, 1e9) if self.axis is None or self.axis.modulo is None else self.axis.modulo

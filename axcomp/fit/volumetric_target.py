@@ -6,14 +6,14 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+from ..kinds.parameter import ListKind, Severity
 from ..lists.axes import Axes
 from ..lists.catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
 from ..lists.edit import edited
 from ..lists.etalon import read_etalon, write_etalon
 from ..lists.files import Files
-from ..lists.findings import Finding, Findings, Severity
+from ..lists.findings import Finding, Findings
 from ..lists.isg_csv import read_isg_csv, write_isg_csv
-from ..lists.parameter import ListKind
 from ..lists.start_up import START_UP_NAME, MachineFiles, find_lists
 from ..lists.values import read_values
 from ..lists.volumetric_list import VolumetricReader

@@ -11,11 +11,10 @@ from typing import NamedTuple
 
 from ..interface.variable import Variable
 from ..interface.variables import Naming, identifier, variables_of
-from ..kernel.records import Tables
+from ..kinds.compiling import CompileError
 from ..lists import Finding, read_machine
 from ..model.machine import Machine
-from ..runtime.compile import compile_tables
-from ..runtime.compile_pool import CompileError
+from ..runtime.compile import Compiled, compile_tables
 from .archive import BuildError, generation_date
 from .description import Description
 from .packed_lists import packed_lists
@@ -44,8 +43,8 @@ class Content(NamedTuple):
         With at least one axis.
     findings : tuple of Finding
         From reading.
-    tables : Tables
-        Of the machine.
+    compiled : Compiled
+        Tables of the machine.
     variables : tuple of Variable
         The one list.
     description : Description
@@ -58,7 +57,7 @@ class Content(NamedTuple):
 
     machine: Machine
     findings: tuple[Finding, ...]
-    tables: Tables
+    compiled: Compiled
     variables: tuple[Variable, ...]
     description: Description
     place: str
@@ -81,7 +80,7 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
     if not machine.axes:
         raise BuildError("\n".join([*map(str, findings), f"{lists}: there is no axis in these lists."]))
     try:
-        tables = compile_tables(machine, cycle_time)
+        compiled = compile_tables(machine, cycle_time)
     except CompileError as error:
         raise BuildError(f"{lists}: {error}") from None
     names = ", ".join(identifier(axis.name) for axis in machine.axes)
@@ -94,7 +93,7 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
         generated=generation_date(),
     )
     variables = variables_of(machine, naming, cycle_time)
-    return Content(machine, findings, tables, variables, description, *packed_lists(Path(lists)))
+    return Content(machine, findings, compiled, variables, description, *packed_lists(Path(lists)))
 
 
 def output_path(output: str | os.PathLike[str], name: str) -> Path:

@@ -13,11 +13,12 @@ from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from ..interface.errors import ERROR_CALL
+from ..interface.slot import Slot
 from ..interface.variable import TYPE_NAMES, Value
-from ..interface.variables import Controls, every_place
+from ..interface.variables import Controls, every_slot
 from ..kernel.records import ERROR_UPDATE
+from ..kinds.parameter import Severity
 from ..lists import read_machine
-from ..lists.findings import Severity
 from ..model.machine import Machine
 from ..runtime.runtime import Runtime
 from .packed_interface import FILE_NAME, Interface
@@ -31,7 +32,6 @@ REMEMBERED_MAX = 1000
 
 _Parameters = ParamSpec("_Parameters")
 _Result = TypeVar("_Result")
-_Place = tuple[Any, str]
 
 
 def guarded(
@@ -80,8 +80,8 @@ class Instance:
         self.runtime = Runtime(Machine())
         self._start()
         self._own_machine = self.runtime.machine
-        self._readable: dict[str, dict[int, _Place]] = {name: {} for name in TYPE_NAMES.values()}
-        self._settable: dict[str, dict[int, _Place]] = {name: {} for name in TYPE_NAMES.values()}
+        self._readable: dict[str, dict[int, Slot]] = {name: {} for name in TYPE_NAMES.values()}
+        self._settable: dict[str, dict[int, Slot]] = {name: {} for name in TYPE_NAMES.values()}
         self._run(self.runtime)
 
     @guarded
@@ -110,15 +110,15 @@ class Instance:
         return machine, complaints, sum(finding.severity is Severity.ERROR for finding in findings)
 
     def _run(self, runtime: Runtime) -> None:
-        """Go on with a runtime: note where the value of each reference stands, a record and the name of its field."""
+        """Go on with a runtime: note where the value of each reference is."""
         self.runtime = runtime
         records = (runtime.inputs, runtime.outputs, self.controls)
         count = len(runtime.inputs.volumetric)
-        for reference, declaration, record in every_place(len(runtime.machine.axes), *records, volumetrics=count):
+        for reference, declaration, slot in every_slot(len(runtime.machine.axes), *records, volumetrics=count):
             name = TYPE_NAMES[type(declaration.start)]
-            self._readable[name][reference] = (record, declaration.field)
+            self._readable[name][reference] = slot
             if declaration.causality != "output":
-                self._settable[name][reference] = (record, declaration.field)
+                self._settable[name][reference] = slot
 
     # Reports
 
@@ -146,37 +146,37 @@ class Instance:
         """Return the values of variables of one type; 0, false or "" for a reference that is none."""
         if self._initializing:
             self._begin()
-        places = self._readable[type_name]
+        slots = self._readable[type_name]
         try:
-            return [getattr(*places[reference]) for reference in references]
+            return [read(record, key) for read, _, record, key in map(slots.__getitem__, references)]
         except KeyError:
             return [self._value(type_name, reference) for reference in references]
 
     def _value(self, type_name: str, reference: int) -> Value:
-        place = self._readable[type_name].get(reference)
-        if place is None:
+        slot = self._readable[type_name].get(reference)
+        if slot is None:
             self.fail(f"there is no {type_name} variable with value reference {reference}", ERROR_CALL)
             return ZEROS[type_name]
-        value: Value = getattr(*place)
+        value: Value = slot.get()
         return value
 
     def set(self, type_name: str, references: Sequence[int], values: Sequence[Value]) -> None:
         """Set variables of one type; a reference that is none, or of an output, is passed over."""
-        places = self._settable[type_name]
+        slots = self._settable[type_name]
         try:
             for reference, value in zip(references, values, strict=False):
-                record, field = places[reference]
-                setattr(record, field, value)
+                _, write, record, key = slots[reference]
+                write(record, key, value)
         except KeyError:
             self._set_those_that_are(type_name, references, values)
 
     def _set_those_that_are(self, type_name: str, references: Sequence[int], values: Sequence[Value]) -> None:
         for reference, value in zip(references, values, strict=False):
-            place = self._settable[type_name].get(reference)
-            if place is None:
+            slot = self._settable[type_name].get(reference)
+            if slot is None:
                 self.fail(f"there is no {type_name} variable to set with value reference {reference}", ERROR_CALL)
             else:
-                setattr(*place, value)
+                slot.set(value)
 
     # Time
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from ..interface.variables import Naming
 from ..model.companions import fmu_sources
+from ..model.machine import CYCLE_TIME
 from ..native.compiler import PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
 from ..native.image import image_of, image_source
-from ..runtime.compile import CYCLE_TIME
 from .archive import BuildError, content_guid, file_bytes, write_fmu
 from .content import NAME, Built, Content, output_path, read_content
 from .description import model_description
@@ -85,7 +85,7 @@ def package_native(
         content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
     )
     guid = _guid(content)
-    image = image_of(content.tables, guid)
+    image = image_of(content.compiled, guid)
     files[f"resources/{IMAGE}"] = image
     files.update((f"sources/{name}", _source(name)) for name in (*SOURCES, *HEADERS))
     files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()
@@ -110,7 +110,7 @@ def write_image(
     path = output_path(output, IMAGE)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(image_of(content.tables, _guid(content)))
+        path.write_bytes(image_of(content.compiled, _guid(content)))
     except OSError as error:
         raise BuildError(f"{path} cannot be written: {error.strerror or error}") from None
     return content.built(path)
@@ -119,7 +119,7 @@ def write_image(
 def _guid(content: Content) -> str:
     """Return a guid that depends on variables and tables, not on date, compiler and platforms."""
     description = model_description(replace(content.description, generated=""), content.variables, "")
-    return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.tables, "")})
+    return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "")})
 
 
 def _libraries(platforms: Sequence[str]) -> dict[str, bytes]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from ..interface.variable import Variable
 from ..interface.variables import Naming
 from ..model.companions import fmu_sources
-from ..runtime.compile import CYCLE_TIME
+from ..model.machine import CYCLE_TIME
 from .archive import BuildError, content_guid, file_bytes, write_fmu
 from .content import PACKAGE, Built, output_path, read_content
 from .description import Description, model_description

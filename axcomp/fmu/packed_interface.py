@@ -9,8 +9,7 @@ import json
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from ..model.machine import AXES_MAX, Axis, AxisType, Machine
-from ..runtime.compile import CYCLE_TIME
+from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
 
 FILE_NAME = "axcomp.json"
 """Name of the file in ``resources``."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import pickle
 import zlib
 from dataclasses import dataclass, fields
 from typing import Any
 
+from ..kinds import KINDS
 from ..model import machine as machine_classes
 from ..model import volumetric as volumetric_classes
 from ..model.machine import Machine
@@ -54,8 +56,13 @@ class _MachineUnpickler(pickle.Unpickler):
     """Loads the dataclasses that a Machine consists of, and nothing else."""
 
     def find_class(self, module: str, name: str) -> Any:
-        for classes in (machine_classes, volumetric_classes):
+        for classes in (machine_classes, volumetric_classes, *map(inspect.getmodule, KINDS.values())):
             found = getattr(classes, name, None)
-            if module == classes.__name__ and isinstance(found, type) and found.__module__ == module:
+            if (
+                classes is not None
+                and module == classes.__name__
+                and isinstance(found, type)
+                and found.__module__ == module
+            ):
                 return found
         raise pickle.UnpicklingError(f"{module}.{name}")

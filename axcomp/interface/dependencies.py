@@ -5,7 +5,11 @@ An output changes only if one of these inputs changes (or time goes on, or a tab
 
 from __future__ import annotations
 
-from ..model.machine import Axis, Crosstalk, Machine
+from collections.abc import Iterable
+from typing import Any
+
+from ..kinds import KINDS, Kind, kinds_of
+from ..model.machine import Axis, Machine
 from ..model.volumetric import Volumetric
 
 Input = tuple[int | None, str]
@@ -15,7 +19,6 @@ Inputs = frozenset[Input]
 
 COMMANDS_OF_VOLUMETRIC = ("enable", "no_move", "factor_x", "factor_y", "factor_z")
 
-SETPOINT_KINDS = ("cross", "plane", "crosstalk", "leadscrew")
 COMMANDS = ((None, "reset"), (None, "program_end"), (None, "reload"))
 
 
@@ -44,61 +47,56 @@ class Dependencies:
         """Return the inputs that the output called ``output`` (``corrected_setpoint``, ``cross.active`` …) needs."""
         if output in ("stop_request", "volumetric.correction"):
             return self._volumetric()
-        kind, _, quantity = output.rpartition(".")
+        name, _, quantity = output.rpartition(".")
         if quantity == "active":
-            return self._switch(kind)
-        if kind:
-            return self._switch(kind) | self._value(kind)
+            return self._switch(KINDS[name])
+        if name:
+            return self._correction(KINDS[name])
         if output == "current":
-            return self._switch("friction") | self._own("setpoint", "velocity", "acceleration")
+            return self._union(self._correction(kind) for kind in self._kinds("current"))
         if output == "error":
             own = self._own("setpoint", "velocity", "acceleration", "actual_position").union(COMMANDS)
             return own | self._volumetric()
-        correction = self._all_corrections()
+        correction = self._union(self._correction(kind) for kind in self._kinds("setpoint")) | self._volumetric()
         if output == "corrected_setpoint":
             return correction | self._own("setpoint")
         if output == "display_position":
             return correction | self._own("actual_position")
         return correction
 
-    def _all_corrections(self) -> Inputs:
-        kinds = tuple(kind for kind in SETPOINT_KINDS if getattr(self.axis, kind) is not None)
-        return self._corrections(kinds) | self._volumetric()
+    def _kinds(self, adds_to: str) -> list[Kind[Any]]:
+        return [kind for kind in kinds_of(self.axis) if kind.adds_to == adds_to]
 
     def _volumetric(self) -> Inputs:
         found = [one for one in self.machine.volumetric if self.axis.number in self.machine.corrected_by(one)]
-        return frozenset[Input]().union(*(volumetric_switch(self.machine, one) for one in found))
+        return self._union(volumetric_switch(self.machine, one) for one in found)
 
-    def _corrections(self, kinds: tuple[str, ...]) -> Inputs:
-        return frozenset[Input]().union(*(self._switch(kind) | self._value(kind) for kind in kinds))
+    def _correction(self, kind: Kind[Any]) -> Inputs:
+        """Return what a contribution is computed from: its weight, and its value at full weight.
 
-    def _switch(self, kind: str) -> Inputs:
+        A kind without a table may get one by an update, which needs ``reload``: so much is known of it.
+        """
+        compensation = getattr(self.axis, kind.name)
+        if compensation is None:
+            return self._switch(kind)
+        looked_up = (
+            (place, name) for number, name in kind.looks_up(compensation, self.axis) for place in self._places(number)
+        )
+        value = frozenset[Input](looked_up)
+        if kind.follows(compensation):
+            value |= self._union(self._correction(other) for other in kinds_of(self.axis) if other.number < kind.number)
+        return self._switch(kind) | value
+
+    def _switch(self, kind: Kind[Any]) -> Inputs:
         """Return what decides whether a compensation is on; ``setpoint`` and ``velocity`` tell a standstill."""
-        own = self._own("setpoint", "velocity", "referenced", "no_move", f"{kind}.enable").union(COMMANDS)
-        return own.union((place, "referenced") for place in self._conditions(kind))
+        own = self._own("setpoint", "velocity", "released", "no_move", f"{kind.name}.enable").union(COMMANDS)
+        compensation = getattr(self.axis, kind.name)
+        needed = () if compensation is None else kind.needs(compensation, self.axis)
+        return own.union((place, "referenced") for place in self._places(*needed))
 
-    def _conditions(self, kind: str) -> list[int]:
-        """Return the other axes that must be referenced."""
-        if kind == "cross" and self.axis.cross is not None:
-            return self._places(self.axis.cross.master)
-        if kind == "plane" and self.axis.plane is not None:
-            return self._places(self.axis.plane.master1, self.axis.plane.master2)
-        if isinstance(self.axis.crosstalk, Crosstalk) and kind == "crosstalk":
-            return self._places(self.axis.crosstalk.adaptation1, self.axis.crosstalk.adaptation2)
-        return []
-
-    def _value(self, kind: str) -> Inputs:
-        """Return what the value of a correction at full weight is looked up with."""
-        if kind == "leadscrew":
-            other = tuple(k for k in SETPOINT_KINDS[:-1] if getattr(self.axis, k) is not None)
-            if self.axis.leadscrew is not None and self.axis.leadscrew.without_other_compensations:
-                other = ()
-            return self._own("setpoint") | self._corrections(other)
-        masters = frozenset[Input]((place, "setpoint") for place in self._conditions(kind))
-        if kind == "crosstalk" and self.axis.crosstalk is not None:
-            for master in self._places(self.axis.crosstalk.master):
-                masters |= {(master, "acceleration"), (master, "velocity")}
-        return masters
+    @staticmethod
+    def _union(parts: Iterable[Inputs]) -> Inputs:
+        return frozenset[Input]().union(*parts)
 
     def _own(self, *names: str) -> Inputs:
         return frozenset((self.index, name) for name in names)

@@ -2,22 +2,9 @@
 
 from __future__ import annotations
 
-from ..kernel.records import (
-    ERROR_CROSS_POINTS,
-    ERROR_FRICTION_POINTS,
-    ERROR_INPUT,
-    ERROR_LEADSCREW_POINTS,
-    ERROR_PLANE_POINTS,
-    ERROR_UPDATE,
-)
+from ..kernel.records import ERROR_INPUT, ERROR_UPDATE
 from ..kernel.volumetric_records import ERROR_LIMIT_EXCEEDED, ERROR_LIMIT_UNDEFINED, ERROR_PROGRAM_END, ERROR_SINGULAR
-
-POINTS_ERRORS = {
-    "leadscrew": ERROR_LEADSCREW_POINTS,
-    "cross": ERROR_CROSS_POINTS,
-    "plane": ERROR_PLANE_POINTS,
-    "friction": ERROR_FRICTION_POINTS,
-}
+from ..kinds import KINDS
 
 ERROR_CALL = 903  # AXC-903
 
@@ -30,8 +17,9 @@ ERRORS = {
     ERROR_SINGULAR: "X, Y and Z cannot move the tool in three directions here; a volumetric compensation is off",
     ERROR_PROGRAM_END: "The program ended while a volumetric compensation of its channel was on; it is off",
     **{
-        number: f"`reload` changes max_points of the {kind} compensation; the axis keeps its old lists"
-        for kind, number in POINTS_ERRORS.items()
+        kind.points_error: f"`reload` changes max_points of the {kind.name} compensation; the axis keeps its old lists"
+        for kind in KINDS.values()
+        if kind.points_error
     },
 }
 """Number → meaning, in the order of the reference page."""

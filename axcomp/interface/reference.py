@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ..kinds import KIND_NAMES, KINDS
 from ..model.companions import models
-from ..model.machine import KINDS
 from .errors import ERRORS
 from .variable import BLOCK, TYPE_NAMES
 from .variables import (
@@ -83,6 +83,9 @@ is made or `reload` is set, not in steps.
 """
 
 
+FIRST = KIND_NAMES[0]
+
+
 def reference_page() -> str:
     """Return the page as Markdown."""
     head = HEAD.format(block=BLOCK, machine=MACHINE_BLOCK, axis=AXIS_BLOCK, volumetric=VOLUMETRIC_BLOCK)
@@ -104,8 +107,8 @@ def reference_page() -> str:
 def readme_section() -> str:
     """Return the list of variables for the README: names and units, inputs before outputs."""
     every_axis = [d for d in AXIS_DECLARATIONS if not d.kind]
-    of_kinds = [d for d in AXIS_DECLARATIONS if d.kind == KINDS[0]]
-    others = [d for d in AXIS_DECLARATIONS if d.kind == "friction" and d.name == "current"]
+    of_kinds = [d for d in AXIS_DECLARATIONS if d.kind == FIRST]
+    others = [d for d in AXIS_DECLARATIONS if d.kind in KINDS and d.name == "current"]
     others += [d for d in AXIS_DECLARATIONS if d.kind == VOLUMETRIC]
     rows = ["| | Inputs | Outputs |", "| --- | --- | --- |"]
     for label, declarations, prefix in (
@@ -118,7 +121,7 @@ def readme_section() -> str:
         inputs = [d for d in declarations if d.causality != "output"]
         outputs = [d for d in declarations if d.causality == "output"]
         rows.append(f"| {label} | {_named(inputs, prefix)} | {_named(outputs, prefix)} |")
-    return "\n".join(rows).replace(f"{KINDS[0]}.", "KIND.") + "\n"
+    return "\n".join(rows).replace(f"{FIRST}.", "KIND.") + "\n"
 
 
 def readme_with_section(readme: str) -> str:

@@ -40,7 +40,7 @@ class Variable:
     axis : int or None
         Place of its axis in the machine; None: it belongs to no axis.
     field : str
-        Its field in the record of its block (see ``variables.record_of``).
+        Path of its field in the record of its block (see ``variables.slot_of``).
     volumetric : int or None
         Number of its volumetric compensation; None: it belongs to none.
     """

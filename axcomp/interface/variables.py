@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from ..kernel.records import Inputs, Outputs
-from ..model.machine import AXES_MAX, KINDS, Axis, Machine
+from ..kinds import KINDS
+from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, Machine
 from ..model.volumetric import COMPENSATIONS_MAX, Volumetric
-from ..runtime.compile import CYCLE_TIME
 from .dependencies import Dependencies, Input, volumetric_input, volumetric_switch
+from .slot import Slot, slot_in
 from .variable import BLOCK, Causality, Value, Variability, Variable
 
 Naming = Literal["structured", "flat"]
@@ -30,12 +31,14 @@ VOLUMETRIC = "volumetric"
 POSITION, VELOCITY, ACCELERATION = "{}", "{}/s", "{}/s2"
 """Units of an axis' quantities; {} stands for mm or deg."""
 
+_OF_CURRENT = next(kind for kind in KINDS.values() if kind.adds_to == "current")
+
 
 class Declaration(NamedTuple):
     """A variable of the machine, of every axis, or of every volumetric compensation.
 
     ``kind``: it appears only where this compensation is configured; "": always. ``variability``: where it is not the
-    usual one of its type.
+    usual one of its type. ``path``: of its field in the records, where that is not called as the variable is.
     """
 
     identifier: int
@@ -46,11 +49,17 @@ class Declaration(NamedTuple):
     unit: str = ""
     kind: str = ""
     variability: Variability | None = None
+    path: str = ""
+
+    @property
+    def flat(self) -> str:
+        """Name without dots."""
+        return self.name.replace(".", "_")
 
     @property
     def field(self) -> str:
-        """Name of its field in the kernel's records or in ``Controls``."""
-        return self.name.replace(".", "_")
+        """Path of its field in the kernel's records or in ``Controls``."""
+        return self.path or self.flat
 
 
 @dataclass(slots=True)
@@ -88,12 +97,21 @@ OF_AXIS = (
     Declaration(4, "referenced", "input", True, "The axis has its reference"),
     Declaration(5, "fault", "input", False, "The axis is in error"),
     Declaration(6, "no_move", "input", False, "What is switched now moves no axis: its value becomes setpoint_shift"),
+    Declaration(7, "released", "input", False, "A rising edge gives the axis back: manual compensations off"),
     Declaration(8, "corrected_setpoint", "output", 0.0, "Setpoint with all corrections, for the drive", POSITION),
     Declaration(9, "display_position", "output", 0.0, "Measured position without the corrections", POSITION),
     Declaration(10, "correction", "output", 0.0, "Sum of all corrections of the setpoint", POSITION),
     Declaration(11, "setpoint_shift", "output", 0.0, "Offset that keeps the setpoint continuous (no_move)", POSITION),
     Declaration(12, "error", "output", 0, "0, or the number of an error: 901 as long as its cause, others until reset"),
-    Declaration(13, "current", "output", 0.0, "Additional motor current, in the drive's own unit", kind="friction"),
+    Declaration(
+        13,
+        "current",
+        "output",
+        0.0,
+        "Additional motor current, in the drive's own unit",
+        kind=_OF_CURRENT.name,
+        path=f"contribution[{_OF_CURRENT.number}]",
+    ),
     Declaration(14, "stop_request", "output", False, "The axis is to stop: s_limit was exceeded", kind=VOLUMETRIC),
     Declaration(15, "volumetric.correction", "output", 0.0, "Sum of all volumetric corrections", POSITION, VOLUMETRIC),
 )
@@ -108,19 +126,21 @@ OF_VOLUMETRIC = (
     Declaration(5, "active", "output", False, "The volumetric compensation acts at least partly"),
 )
 
-KIND_IDENTIFIERS = {"cross": 16, "plane": 20, "crosstalk": 24, "leadscrew": 28, "friction": 32}
-"""First of the four identifiers of each kind: enable, active, correction, and one to spare."""
-
 
 def _of_kinds() -> Iterator[Declaration]:
-    for kind in KINDS:
-        first = KIND_IDENTIFIERS[kind]
-        called = f"{kind} compensation"
-        yield Declaration(first, f"{kind}.enable", "input", True, f"Command of the {called}: on or off", kind=kind)
-        yield Declaration(first + 1, f"{kind}.active", "output", False, f"The {called} acts at least partly", kind=kind)
-        if kind != "friction":
-            text = f"Correction of the setpoint by the {called}"
-            yield Declaration(first + 2, f"{kind}.correction", "output", 0.0, text, POSITION, kind)
+    for name, kind in KINDS.items():
+        first, number = kind.identifier, kind.number
+        called = f"{name} compensation"
+        text = f"Command of the {called}: on or off"
+        yield Declaration(first, f"{name}.enable", "input", True, text, kind=name, path=f"enable[{number}]")
+        text = f"The {called} acts at least partly"
+        yield Declaration(first + 1, f"{name}.active", "output", False, text, kind=name, path=f"active[{number}]")
+        if kind.adds_to == "setpoint":
+            text, path = f"Correction of the setpoint by the {called}", f"contribution[{number}]"
+            yield Declaration(first + 2, f"{name}.correction", "output", 0.0, text, POSITION, name, path=path)
+        for place, own in enumerate(kind.inputs, first + 3):
+            path = f"compensation.{name}.{own.name}"
+            yield Declaration(place, f"{name}.{own.name}", "input", 0.0, own.description, own.unit, name, path=path)
 
 
 AXIS_DECLARATIONS = (*OF_AXIS, *_of_kinds())
@@ -193,13 +213,13 @@ def _of_volumetric(
         )
 
 
-def record_of(
+def slot_of(
     declared: Declaration | Variable,
     axis: int | None,
     *records: Inputs | Outputs | Controls,
     volumetric: int | None = None,
-) -> Any:
-    """Return the record that holds the field of a variable; ``axis``: place of its axis, None: of no axis.
+) -> Slot | None:
+    """Return where the value of a variable is; ``axis``: place of its axis, None: of no axis.
 
     ``records`` are those to look in: ``Inputs`` and ``Outputs``, and ``Controls`` where there are some. None: in none.
     ``volumetric``: place of its volumetric compensation, None: of none.
@@ -210,29 +230,29 @@ def record_of(
             if not isinstance(record, Inputs if declared.causality == "input" else Outputs):
                 continue
             candidate = record.axis[axis] if axis is not None else record.volumetric[volumetric or 0]
-        if hasattr(candidate, declared.field):
-            return candidate
+        found = slot_in(candidate, declared.field)
+        if found is not None:
+            return found
     return None
 
 
-def every_place(
+def every_slot(
     axis_count: int, *records: Inputs | Outputs | Controls, volumetrics: int = 0
-) -> Iterator[tuple[int, Declaration, Any]]:
-    """Yield reference, declaration and record of every variable that so many axes and compensations can have."""
-    for declaration in OF_MACHINE:
-        yield BLOCK * MACHINE_BLOCK + declaration.identifier, declaration, record_of(declaration, None, *records)
-    for index in range(axis_count):
-        for declaration in AXIS_DECLARATIONS:
-            reference = BLOCK * (AXIS_BLOCK + index) + declaration.identifier
-            yield reference, declaration, record_of(declaration, index, *records)
-    for index in range(volumetrics):
-        for declaration in OF_VOLUMETRIC:
-            reference = BLOCK * (VOLUMETRIC_BLOCK + index) + declaration.identifier
-            yield reference, declaration, record_of(declaration, None, *records, volumetric=index)
+) -> Iterator[tuple[int, Declaration, Slot]]:
+    """Yield reference, declaration and slot of every variable that so many axes and compensations can have."""
+    blocks: list[tuple[int, tuple[Declaration, ...], int | None, int | None]]
+    blocks = [(MACHINE_BLOCK, OF_MACHINE, None, None)]
+    blocks += [(AXIS_BLOCK + index, AXIS_DECLARATIONS, index, None) for index in range(axis_count)]
+    blocks += [(VOLUMETRIC_BLOCK + index, OF_VOLUMETRIC, None, index) for index in range(volumetrics)]
+    for block, declarations, axis, volumetric in blocks:
+        for declaration in declarations:
+            slot = slot_of(declaration, axis, *records, volumetric=volumetric)
+            if slot is not None:
+                yield BLOCK * block + declaration.identifier, declaration, slot
 
 
 def _present(machine: Machine, axis: Axis) -> Iterator[Declaration]:
-    kinds = {"", *(kind for kind, _ in axis.compensations())}
+    kinds = {"", *axis.kinds}
     if any(axis.number in machine.corrected_by(one) for one in machine.volumetric):
         kinds.add(VOLUMETRIC)
     return (declaration for declaration in AXIS_DECLARATIONS if declaration.kind in kinds)
@@ -246,6 +266,11 @@ def _start(declaration: Declaration, axis: Axis) -> Value:
     """Return the start value: an enable input begins as the compensation activates without a command."""
     if declaration.name.endswith(".enable"):
         return not getattr(getattr(axis, declaration.kind), "manual_activation", False)
+    if declaration.kind in KINDS:
+        compensation = getattr(axis, declaration.kind)
+        for own in KINDS[declaration.kind].inputs:
+            if declaration.name == f"{declaration.kind}.{own.name}" and compensation is not None:
+                return float(getattr(compensation, own.field))
     return declaration.start
 
 
@@ -275,7 +300,7 @@ def _variable(
 
 
 def _name(prefix: str, declaration: Declaration, naming: Naming) -> str:
-    return f"{prefix}.{declaration.name}" if naming == "structured" else f"{prefix}_{declaration.field}"
+    return f"{prefix}.{declaration.name}" if naming == "structured" else f"{prefix}_{declaration.flat}"
 
 
 def _prefixes(machine: Machine, naming: Naming) -> list[str]:

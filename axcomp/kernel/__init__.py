@@ -10,6 +10,7 @@ EXPORTS = (
     "has_left_table",
     "update_error",
     "adopt_axis",
+    "keep_declared",
     "adopt_volumetrics",
     "move_axis_table",
     "tables_fit",

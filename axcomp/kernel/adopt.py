@@ -37,15 +37,22 @@ def adopt_axis(before: AxisTable, after: AxisTable, axis: AxisState, given: Axis
         adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
         if not after.switching[kind].configured:
             after.switching[kind].blend_cycles = before.switching[kind].blend_cycles
-        after.switching[kind].reserved = before.switching[kind].reserved
-        after.switching[kind].points_error = before.switching[kind].points_error
+    keep_declared(before, after)
     adopt_inputs(before.compensation, after.compensation, given.compensation)
     axis.shift.step = min(axis.shift.step, after.shift_cycles)
 
 
+def keep_declared(before: AxisTable, after: AxisTable) -> None:
+    """Let what an axis activated at the start count for the next update too."""
+    for kind in range(KINDS):
+        after.switching[kind].reserved = before.switching[kind].reserved
+        after.switching[kind].points_error = before.switching[kind].points_error
+
+
 def adopt_volumetrics(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:
     """Make the state of the volumetric compensations fit their new tables."""
-    for k in range(before.volumetrics):
+    after.volumetrics = max(before.volumetrics, after.volumetrics)
+    for k in range(after.volumetrics):
         adopt_volumetric(before.volumetric[k], after.volumetric[k], state.volumetric[k])
         outputs.volumetric[k].active = False
 

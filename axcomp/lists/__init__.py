@@ -1,6 +1,7 @@
 """The controller's files, read and written: grammar, parameter catalogue, findings, one module per kind of file."""
 
-from .findings import CODES, Finding, ListError, Severity
+from ..kinds.parameter import Severity
+from .findings import CODES, Finding, ListError
 from .reader import Reading, list_files, read_machine, reread_volumetric
 from .writer import format_axis_list, format_compensation_list, format_start_up_list, write_machine
 

@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+from ..kinds import KINDS
+from ..kinds.units import METRIC, Gear
 from ..model.machine import AXES_MAX, AxisType, ModuloRange
 from .findings import Findings
-from .values import METRIC, Gear, ListValues
-
-ACTIVATION = {
-    "cross": "lr_param.crosscomp",
-    "plane": "lr_param.crosscomp2",
-    "crosstalk": "lr_param.crosstalk",
-    "leadscrew": "lr_param.ssfk",
-    "friction": "lr_param.frict_comp",
-}
-"""Kind of compensation → the axis parameter that activates it."""
+from .values import ListValues
 
 _MODULO_BIT = 0x4
 _NAME = "kopf.log_achs_name"
@@ -41,8 +34,8 @@ class AxisSettings:
         Path resolution.
     activated : dict of str to bool
         By kind of compensation. None: there is no axis list at all, whatever is plausible acts.
-    activated_at : dict of str to (file, line)
-        Where that stands.
+    values : ListValues or None
+        Its axis list, where there is one.
     s_limit, v_limit : float
         Limits of a volumetric correction in mm and mm/s (P-AXIS-00525, P-AXIS-00526); 0: not defined.
     gantry_master : int
@@ -57,7 +50,7 @@ class AxisSettings:
     backlash_cycles: int = 0
     gear: Gear = METRIC
     activated: dict[str, bool] | None = None
-    activated_at: dict[str, tuple[str, int]] = field(default_factory=dict)
+    values: ListValues | None = None
     s_limit: float = 0.0
     v_limit: float = 0.0
     gantry_master: int = 0
@@ -79,8 +72,8 @@ def read_axis(number: int, values: ListValues, findings: Findings) -> AxisSettin
         modulo=_modulo(values, findings) if values.integer("kenngr.achs_mode") & _MODULO_BIT else None,
         backlash_cycles=values.integer("lr_param.n_backlash_cyc"),
         gear=METRIC if numerator == denominator else Gear(numerator, denominator),
-        activated={kind: values.flag(name) for kind, name in ACTIVATION.items()},
-        activated_at={kind: values.place(name) for kind, name in ACTIVATION.items()},
+        activated={name: kind.is_activated(values) for name, kind in KINDS.items()},
+        values=values,
         s_limit=values.converted("lr_param.vol_comp.s_limit"),
         v_limit=values.converted("lr_param.vol_comp.v_limit"),
         gantry_master=values.integer("kenngr.gantry_ax_nr"),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..kinds.parameter import ListKind, Parameter, key_of
 from .catalogue_compensation import COMPENSATION
 from .catalogue_machine import AXIS, START_UP
 from .catalogue_volumetric import VOLUMETRIC
-from .parameter import ListKind, Parameter, key_of
 
 CATALOGUE: dict[ListKind, tuple[Parameter, ...]] = {
     ListKind.START_UP: START_UP,

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from ..kinds import KINDS
+from ..kinds.parameter import DataType, ListKind, Manual, Parameter, Quantity, axis
 from ..model.volumetric import COMPENSATIONS_MAX
-from .parameter import DataType, Manual, Parameter, Quantity
 
 
 def _start_up(number: str) -> dict[Manual, str]:
     return {Manual.START_UP: f"P-STUP-{number}"}
-
-
-def _axis(number: str) -> dict[Manual, str]:
-    return {Manual.AXIS: f"P-AXIS-{number}"}
 
 
 START_UP = (
@@ -64,7 +61,7 @@ AXIS = (
         "Logical axis number",
         DataType.UNS16,
         0,
-        _axis("00016"),
+        axis("00016"),
         range="(0, MAX)",
         aliases=("kopf.log_achs_nr",),
     ),
@@ -74,7 +71,7 @@ AXIS = (
         "Axis type: 1 translatory, 2 rotary, 4 spindle",
         DataType.UNS16,
         1,
-        _axis("00018"),
+        axis("00018"),
         values=(1, 2, 4),
         names={"ACHSTYP_TRANSLATOR": 1, "ACHSTYP_ROTATOR": 2, "ACHSTYP_SPINDEL": 4},
     ),
@@ -83,21 +80,18 @@ AXIS = (
         "Operating mode; bit 0x4: modulo",
         DataType.UNS32,
         1,
-        _axis("00015"),
+        axis("00015"),
         names={"ACHSMODE_LINEAR": 0x1, "ACHSMODE_MODULO": 0x4},
     ),
-    Parameter("kenngr.gantry_ax_nr", "Logical number of the gantry master", DataType.UNS16, 0, _axis("00070")),
-    Parameter("lr_param.crosscomp", "Activates the cross compensation", DataType.BOOLEAN, 0, _axis("00047")),
-    Parameter("lr_param.crosscomp2", "Activates the plane compensation", DataType.BOOLEAN, 0, _axis("00174")),
-    Parameter("lr_param.ssfk", "Activates the leadscrew compensation", DataType.BOOLEAN, 0, _axis("00175")),
-    Parameter("lr_param.frict_comp", "Activates the friction compensation", DataType.BOOLEAN, 0, _axis("00522")),
-    Parameter("lr_param.crosstalk", "Activates the crosstalk compensation", DataType.BOOLEAN, 0, _axis("00789")),
+    Parameter("kenngr.gantry_ax_nr", "Logical number of the gantry master", DataType.UNS16, 0, axis("00070")),
+    *(kind.activator for kind in KINDS.values()),
+    *(row for kind in KINDS.values() if kind.list_kind is ListKind.AXIS for row in kind.parameters),
     Parameter(
         "lr_param.n_backlash_cyc",
-        "Cycles over which the leadscrew compensation changes direction",
+        "Cycles over which leadscrew and backlash compensation change direction",
         DataType.UNS16,
         0,
-        _axis("00243"),
+        axis("00243"),
         Quantity.CYCLES,
         "[0, 20]",
     ),
@@ -106,7 +100,7 @@ AXIS = (
         "Largest volumetric correction; 0: not defined",
         DataType.UNS32,
         0,
-        _axis("00525"),
+        axis("00525"),
         Quantity.POSITION,
     ),
     Parameter(
@@ -114,7 +108,7 @@ AXIS = (
         "Largest velocity of a volumetric correction; 0: not defined",
         DataType.UNS32,
         0,
-        _axis("00526"),
+        axis("00526"),
         Quantity.VELOCITY,
     ),
     Parameter(
@@ -122,7 +116,7 @@ AXIS = (
         "Path resolution, 0.1 µm or 0.0001°",
         DataType.UNS32,
         1,
-        _axis("00233"),
+        axis("00233"),
         range="[1, MAX]",
         index_max=(15,),
         code="110086",
@@ -132,7 +126,7 @@ AXIS = (
         "Path resolution, increments",
         DataType.UNS32,
         1,
-        _axis("00234"),
+        axis("00234"),
         range="[1, MAX]",
         index_max=(15,),
         code="110386",
@@ -142,7 +136,7 @@ AXIS = (
         "Lower end of the modulo range",
         DataType.SGN32,
         0,
-        _axis("00127"),
+        axis("00127"),
         Quantity.POSITION,
         index_max=(15,),
     ),
@@ -151,7 +145,7 @@ AXIS = (
         "Upper end of the modulo range",
         DataType.SGN32,
         3_600_000,
-        _axis("00126"),
+        axis("00126"),
         Quantity.POSITION,
         index_max=(15,),
     ),

@@ -1,4 +1,4 @@
-"""One compensation list with its axis: what the readers of all kinds of compensation need."""
+"""One list with the axis it is for: what the kinds of compensation need to be read (see ``kinds.kind.TableReader``)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from itertools import groupby, pairwise, product
 from typing import Any
 
+from ..kinds.units import METRIC, Gear, convert
 from .axes import Axes, AxisSettings
 from .catalogue import parameter
 from .findings import Findings
-from .parameter import ListKind
-from .values import METRIC, Gear, Indices, ListValues, convert
+from .values import Indices, ListValues
 
 POINTS_MAX = 1_000_000
 """Entries of a table that are taken at most, whatever max_points says."""
@@ -21,8 +21,8 @@ POSITION_MAX = 1e15
 _MISSING = (0, 0)
 
 
-class CompensationList:
-    """A compensation list being read: its values, its axis, the other axes, and where to note findings."""
+class TableReader:
+    """A list of an axis being read: its values, its axis, the other axes, and where to note findings."""
 
     def __init__(self, values: ListValues, axis: AxisSettings, axes: Axes, findings: Findings) -> None:
         self.values = values
@@ -32,7 +32,7 @@ class CompensationList:
 
     def note(self, code: str, name: str, message: str, *indices: int) -> None:
         """Note a finding at an entry of this list."""
-        shown = parameter(ListKind.COMPENSATION, name).named(*indices) if indices else name
+        shown = parameter(self.values.kind, name).named(*indices) if indices else name
         self._findings.add(code, self.values.file, self._line(name, indices), shown, message)
 
     def _line(self, name: str, indices: Indices) -> int:
@@ -70,7 +70,7 @@ class CompensationList:
 
     def capacity(self, name: str) -> int:
         """Return max_points; 0 stands for the default."""
-        return self.values.integer(name) or int(parameter(ListKind.COMPENSATION, name).default)
+        return self.values.integer(name) or int(parameter(self.values.kind, name).default)
 
     def fits(self, used: int, capacity: int, size_name: str) -> bool:
         """Check the used size of a table, with a finding if it is 0 or too large."""
@@ -90,7 +90,7 @@ class CompensationList:
 
         An entry that is missing is 0, as in the controller, with a finding; so are entries beyond the used part.
         """
-        divisor = parameter(ListKind.COMPENSATION, name).quantity.divisor
+        divisor = parameter(self.values.kind, name).quantity.divisor
         cells = self.values.cells(name)
         used = list(product(*map(range, counts)))
         found: list[tuple[Any, int]] = [cells.get(indices, _MISSING) for indices in used]
@@ -107,7 +107,7 @@ class CompensationList:
 
     def _note_gaps(self, name: str, used: list[Indices]) -> None:
         """Note each run of missing entries, at the line of the entry before it."""
-        row = parameter(ListKind.COMPENSATION, name)
+        row = parameter(self.values.kind, name)
         cells = self.values.cells(name)
         for missing, run in groupby(enumerate(used), lambda numbered: numbered[1] not in cells):
             if missing:
@@ -145,7 +145,7 @@ class CompensationList:
         values = self.values
         if "[" not in name:
             return f"{name} is too small for positions as large as these: they do not ascend"
-        shown = parameter(ListKind.COMPENSATION, name).named(index)
+        shown = parameter(self.values.kind, name).named(index)
         before, after = values.value(name, index - 1), values.value(name, index)
         if values.given(name, index):
             return f"{shown} = {after} is not above the entry before it, {before}"

@@ -11,9 +11,9 @@ import codecs
 import re
 from collections.abc import Collection, Mapping, Sequence
 
+from ..kinds.parameter import DataType, ListKind, Parameter, key_of
 from .catalogue import SPELLINGS, Spelling
 from .grammar import Entry, decode, entries, string
-from .parameter import DataType, ListKind, Parameter, key_of
 
 _NEWLINES = re.compile(r"(\r\n|\r|\n)")
 _END = re.compile(r"\s*end\s*\Z", re.I)

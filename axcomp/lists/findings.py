@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import enum
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from ..kinds import KINDS
+from ..kinds.parameter import Severity
+
 _NAME_MAX = 80
 """Characters of a parameter that are shown at most: that of many columns at once can be long."""
-
-
-class Severity(enum.Enum):
-    """How much a finding matters; the order of the members is the order of the matter."""
-
-    ERROR = "error"
-    WARNING = "warning"
-    INFO = "info"
 
 
 @dataclass(frozen=True)
@@ -105,26 +99,8 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-MASTER-SELF": (_WARNING, "An axis is its own master"),
     "AXC-ORDER": (_ERROR, "Interpolation points are not strictly ascending"),
     "AXC-INTERVAL": (_ERROR, "The distance of interpolation points is 0 where it is needed"),
-    "AXC-MODULO-AXIS": (_WARNING, "A modulo table on an axis without modulo counting; it is read without modulo"),
-    "AXC-MODULO-SPAN": (_ERROR, "A modulo table spans more than one modulo range"),
-    "AXC-MODULO-SEAM": (_WARNING, "A modulo table spans exactly one range and its end values differ"),
     "AXC-AXIS-TYPE": (_ERROR, "The compensation exists for translatory axes only"),
-    "AXC-VARIANT": (_WARNING, "Entries of both variants of the crosstalk compensation; the new one counts"),
-    "AXC-TESTS": (_ERROR, "Too few crosstalk tests, or all in one line"),
-    "AXC-TESTS-FEW": (_WARNING, "Fewer crosstalk tests than the mode should have"),
-    "AXC-TESTS-TWICE": (_WARNING, "Two crosstalk tests at the same place; the later one counts"),
-    "AXC-ACCELERATION": (_ERROR, "The acceleration or deceleration of the crosstalk tests is missing"),
-    "AXC-AT-REST": (_WARNING, "The crosstalk correction at acceleration 0 is not 0"),
-    "70182": (_ERROR, "Plane compensation: invalid master axis number"),
-    "70183": (_ERROR, "Plane compensation: no table"),
-    "70184": (_ERROR, "Plane compensation: wrong type of master axis"),
-    "70245": (_ERROR, "Cross compensation: setpoints are not ascending"),
-    "70495": (_INFO, "Friction compensation: a table is there, but the axis does not activate it (P-AXIS-00522)"),
-    "110591": (_ERROR, "Friction compensation: velocities are negative or not ascending"),
-    "110638": (_ERROR, "Leadscrew compensation: max_points was changed by an update"),
-    "110639": (_ERROR, "Cross compensation: max_points was changed by an update"),
-    "110640": (_ERROR, "Plane compensation: max_points was changed by an update"),
-    "110641": (_ERROR, "Friction compensation: max_points was changed by an update"),
+    **{code: meaning for kind in KINDS.values() for code, meaning in kind.codes.items()},
     "110647": (_ERROR, "A table is larger than its max_points"),
     # Volumetric compensation
     "70468": (_ERROR, "Volumetric compensation: a name is neither a parameter nor an axis"),

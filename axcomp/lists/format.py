@@ -2,29 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from decimal import Context, Decimal
+from decimal import Decimal
 
+from ..kinds.parameter import ListKind, Parameter, Value
+from ..kinds.units import in_list
 from .catalogue import parameter
 from .grammar import string
-from .parameter import ListKind, Parameter, Quantity, Value
 
-_EXACT = Context(prec=1000)
 _NAME_WIDTH = 40
-
-
-def in_list(value: float, quantity: Quantity) -> int | Decimal:
-    """Return mm, °, mm/s, °/s or a factor in the unit of the lists, so that it reads back to the same float.
-
-    That is an integer where one does, else a decimal; ValueError if the value is not finite.
-    """
-    scaled = value * quantity.divisor
-    if not math.isfinite(scaled):
-        raise ValueError(f"{value} cannot stand in a list")
-    whole = round(scaled)
-    if whole / quantity.divisor == value:
-        return whole
-    return Decimal(repr(float(value))).scaleb(len(str(quantity.divisor)) - 1, _EXACT)
 
 
 class Lines:

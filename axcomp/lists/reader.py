@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..model.machine import KINDS, Axis, Machine
+from ..kinds import KINDS, Kind
+from ..kinds.parameter import ListKind, Severity
+from ..model.machine import Axis, Compensation, Machine
 from ..model.volumetric import Volumetric
-from . import cross, crosstalk, friction, leadscrew, plane
-from .axes import ACTIVATION, Axes, AxisSettings, read_axis
-from .compensation import CompensationList
+from .axes import Axes, AxisSettings, read_axis
+from .compensation import TableReader
 from .files import Files
-from .findings import Finding, Findings, ListError, Severity
-from .parameter import ListKind
+from .findings import Finding, Findings, ListError
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues, read_values
 from .volumetric_list import read_one, read_volumetric
@@ -28,23 +28,6 @@ class Reading(NamedTuple):
 
 
 _NUMBER = "kopf.achs_nr"
-
-
-class _Kind(NamedTuple):
-    """How one kind of compensation is read: its reader, and the entries whose presence means that there is a table."""
-
-    read: Callable[[CompensationList], Any]
-    tables: tuple[str, ...]
-    sizes: tuple[str, ...]
-
-
-_KINDS = {
-    "cross": _Kind(cross.read_cross, cross.TABLES, cross.SIZES),
-    "plane": _Kind(plane.read_plane, plane.TABLES, plane.SIZES),
-    "crosstalk": _Kind(crosstalk.read_crosstalk, crosstalk.TABLES, crosstalk.SIZES),
-    "leadscrew": _Kind(leadscrew.read_leadscrew, leadscrew.TABLES, leadscrew.SIZES),
-    "friction": _Kind(friction.read_friction, friction.TABLES, friction.SIZES),
-}
 
 
 def read_machine(path: str | PathLike[str], *, strict: bool = False) -> Reading:
@@ -118,6 +101,16 @@ class _Start(NamedTuple):
     tables: dict[int, ListValues]
 
 
+class _Acting(NamedTuple):
+    """The compensations of an axis, and the room that is reserved for tables it does not have yet; by kind."""
+
+    compensations: dict[str, Compensation]
+    reserved: dict[str, int]
+
+    def arguments(self) -> dict[str, Any]:
+        return {**self.compensations, "reserved": self.reserved}
+
+
 class _MachineReader:
     """Reads axis lists, then compensation lists, then the tables: these need to know all axes."""
 
@@ -144,7 +137,7 @@ class _MachineReader:
             return Machine()
         lists, axes, tables = start
         # Reading a table may add the axes it refers to.
-        compensations = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
+        acting = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
         volumetric = read_volumetric(lists, self.files, axes, self.findings)
         names = axes.names()
         return Machine(
@@ -157,7 +150,7 @@ class _MachineReader:
                     backlash_cycles=axis.backlash_cycles,
                     volumetric_limit=axis.s_limit or None,
                     gantry_master=axis.gantry_master or None,
-                    **compensations.get(axis.number, {}),
+                    **acting.get(axis.number, _Acting({}, {})).arguments(),
                 )
                 for axis in axes.all()
             ),
@@ -249,39 +242,35 @@ class _MachineReader:
         message = f"Axis {number} has a list of this kind already; this one is not used."
         self._note("AXC-NUMBER-TWICE", values, message)
 
-    def _compensations(self, axis: AxisSettings, values: ListValues | None, axes: Axes) -> dict[str, Any]:
-        """Return what acts on an axis, by kind."""
-        acting = {}
-        for kind in KINDS:
-            active = axis.activated is None or axis.activated[kind]
-            if values is not None and _is_present(values, kind):
-                source = CompensationList(values, axis, axes, self.findings)
-                compensation = _KINDS[kind].read(source)
-                if active:
-                    acting[kind] = compensation
-                elif compensation is not None:
+    def _compensations(self, axis: AxisSettings, table: ListValues | None, axes: Axes) -> _Acting:
+        """Return what acts on an axis, and what is activated without a table."""
+        found = _Acting({}, {})
+        for name, kind in KINDS.items():
+            active = axis.activated is None or axis.activated[name]
+            values = table if kind.list_kind is ListKind.COMPENSATION else axis.values if active else None
+            compensation = None
+            if values is not None and (kind.list_kind is ListKind.AXIS or kind.is_present(values)):
+                source = TableReader(values, axis, axes, self.findings)
+                compensation = kind.read(source)
+                if not active and compensation is not None:
                     self._note_inactive(kind, source)
-            elif active and axis.activated is not None:
-                code = "70183" if kind == "plane" else "AXC-NO-TABLE"
-                message = (
-                    f"{ACTIVATION[kind]} is 1, but axis {axis.number} has no {kind} table; nothing is compensated."
-                )
-                self.findings.add(code, *axis.activated_at[kind], ACTIVATION[kind], message)
-        return acting
+            elif active and axis.values is not None:
+                code, entry = kind.no_table_code, kind.activator.name
+                message = f"{entry} is 1, but axis {axis.number} has no {name} table; nothing is compensated."
+                self.findings.add(code, *axis.values.place(entry), entry, message)
+            if active and compensation is not None:
+                found.compensations[name] = compensation
+            elif active and axis.values is not None:
+                found.reserved[name] = kind.reserved(None, values)
+        return found
 
     @staticmethod
-    def _note_inactive(kind: str, source: CompensationList) -> None:
-        name = next(name for name in _KINDS[kind].tables if source.values.cells(name))
-        message = f"There is a {kind} table, but {ACTIVATION[kind]} of axis {source.axis.number} is 0: it does not act."
-        code = "70495" if kind == "friction" else "AXC-INACTIVE"
-        source.note(code, name, message, *min(source.values.cells(name)))
+    def _note_inactive(kind: Kind[Any], source: TableReader) -> None:
+        name = next(name for name in kind.tables if source.values.cells(name))
+        entry = kind.activator.name
+        message = f"There is a {kind.name} table, but {entry} of axis {source.axis.number} is 0: it does not act."
+        source.note(kind.inactive_code, name, message, *min(source.values.cells(name)))
 
 
 def _at_number(values: ListValues) -> tuple[str, int, str]:
     return values.file, values.line(_NUMBER), _NUMBER
-
-
-def _is_present(values: ListValues, kind: str) -> bool:
-    """Whether a list has entries of a table, or says that there should be some."""
-    tables = any(values.cells(name) for name in _KINDS[kind].tables)
-    return tables or any(values.given(name) and values.integer(name) > 0 for name in _KINDS[kind].sizes)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from ..kinds.parameter import DataType, ListKind, Manual, Parameter
 from ..model.companions import models
 from .catalogue import CATALOGUE
 from .findings import CODES
-from .parameter import DataType, ListKind, Manual, Parameter
 
 HEADINGS = ("Parameter", "Id", "Type", "Range", "Unit", "Default", "Meaning")
 """What ``cells`` returns."""

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..kinds.parameter import ListKind
 from .files import Files
 from .findings import Findings
-from .parameter import ListKind
 from .values import ListValues, read_values
 
 START_UP_NAME = "hochlauf.lis"

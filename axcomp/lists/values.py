@@ -3,51 +3,18 @@
 from __future__ import annotations
 
 import difflib
-from decimal import Context, Decimal
-from fractions import Fraction
+from decimal import Decimal
 from functools import lru_cache
-from typing import NamedTuple
 
+from ..kinds.parameter import DataType, ListKind, Parameter, Severity, Value, key_of
+from ..kinds.units import METRIC, Gear, convert
 from .catalogue import SPELLINGS, parameter
-from .findings import CODES, Findings, Severity
+from .findings import CODES, Findings
 from .grammar import Entry, entries, number, string
-from .parameter import DataType, ListKind, Parameter, Value, key_of
 
-_EXACT = Context(prec=1000)
 _SUGGESTIONS_MAX = 500
 
 Indices = tuple[int, ...]
-
-
-class Gear(NamedTuple):
-    """Path resolution of an axis: 0.1 µm (or 0.0001°) for how many increments (P-AXIS-00233, P-AXIS-00234)."""
-
-    numerator: int = 1
-    denominator: int = 1
-
-
-METRIC = Gear()
-"""Values that stand in 0.1 µm or 0.0001° already."""
-
-
-def convert(value: int | Decimal, divisor: int, gear: Gear = METRIC) -> float:
-    """Return value · gear / divisor, correctly rounded, so that what is written reads back to the same number."""
-    if isinstance(value, int):
-        return value * gear.numerator / (gear.denominator * divisor)
-    if gear == METRIC:
-        return float(value.scaleb(1 - len(str(divisor)), _EXACT))
-    return float(Fraction(value) * gear.numerator / (gear.denominator * divisor))
-
-
-def equidistant(
-    start: int | Decimal, interval: int | Decimal, count: int, divisor: int, gear: Gear = METRIC
-) -> list[float]:
-    """Return start, start + interval, … converted, each correctly rounded."""
-    if isinstance(start, int) and isinstance(interval, int):
-        return [convert(start + i * interval, divisor, gear) for i in range(count)]
-    exact_start, exact_interval = Fraction(start), Fraction(interval)
-    factor = Fraction(gear.numerator, gear.denominator * divisor)
-    return [float((exact_start + i * exact_interval) * factor) for i in range(count)]
 
 
 class _Column:

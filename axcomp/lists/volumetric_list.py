@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
+from ..kinds.parameter import ListKind
 from ..model.machine import AxisType
 from ..model.volumetric import (
     AXIS_NUMBERS,
@@ -35,7 +36,6 @@ from .etalon import read_etalon
 from .files import Files
 from .findings import Findings
 from .isg_csv import read_isg_csv
-from .parameter import ListKind
 from .start_up import MachineFiles
 from .values import ListValues, read_values
 from .volumetric_blocks import ParameterBlock

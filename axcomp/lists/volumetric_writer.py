@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..kinds.parameter import ListKind
 from ..model.volumetric import ErrorTable, Interpolation, Volumetric, is_grid
 from .catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
 from .etalon import write_etalon
 from .format import Lines
 from .isg_csv import write_isg_csv
-from .parameter import ListKind
 from .volumetric_blocks import ParameterBlock
 
 _ETALON_SUFFIX = ".exc"

@@ -5,15 +5,10 @@ from __future__ import annotations
 from os import PathLike
 from pathlib import Path
 
-from ..model.machine import AXES_MAX, Axis, Machine
-from .axes import ACTIVATION
-from .cross import format_cross
-from .crosstalk import format_crosstalk
+from ..kinds import KINDS, kind_of
+from ..kinds.parameter import ListKind
+from ..model.machine import AXES_MAX, Axis, Compensation, Machine
 from .format import Lines
-from .friction import format_friction
-from .leadscrew import format_leadscrew
-from .parameter import ListKind
-from .plane import format_plane
 from .start_up import START_UP_NAME
 from .volumetric_writer import check_records, format_parameters, format_volumetric_list, list_file, parameter_file
 
@@ -88,8 +83,14 @@ def format_axis_list(axis: Axis) -> str:
         lines.add("kenngr.achs_mode", _MODULO_MODE)
         lines.add_converted("getriebe[i].modulou", axis.modulo.start, 0)
         lines.add_converted("getriebe[i].moduloo", axis.modulo.end, 0)
-    for kind, name in ACTIVATION.items():
-        lines.add(name, getattr(axis, kind) is not None)
+    for name, kind in KINDS.items():
+        compensation = getattr(axis, name)
+        if name in axis.kinds:
+            lines.add(kind.activator.name, kind.activation(compensation))
+            if compensation is not None and kind.list_kind is ListKind.AXIS:
+                kind.write(compensation, axis, lines)
+        elif kind.list_kind is ListKind.COMPENSATION:
+            lines.add(kind.activator.name, 0)
     lines.add("lr_param.n_backlash_cyc", axis.backlash_cycles)
     if axis.volumetric_limit is not None:
         lines.add_converted("lr_param.vol_comp.s_limit", axis.volumetric_limit)
@@ -102,21 +103,9 @@ def format_compensation_list(axis: Axis) -> str:
     """Return the text of a compensation value list (``achskw*.lis``)."""
     lines = Lines(ListKind.COMPENSATION)
     _format_header(axis, lines)
-    if axis.cross is not None:
-        lines.heading("Cross compensation")
-        format_cross(axis.cross, lines)
-    if axis.plane is not None:
-        lines.heading("Plane compensation")
-        format_plane(axis.plane, lines)
-    if axis.crosstalk is not None:
-        lines.heading("Crosstalk compensation")
-        format_crosstalk(axis.crosstalk, lines)
-    if axis.leadscrew is not None:
-        lines.heading("Leadscrew error compensation")
-        format_leadscrew(axis.leadscrew, lines)
-    if axis.friction is not None:
-        lines.heading("Friction compensation")
-        format_friction(axis.friction, lines)
+    for compensation in _listed(axis):
+        lines.heading(kind_of(compensation).title)
+        kind_of(compensation).write(compensation, axis, lines)
     return lines.text()
 
 
@@ -127,7 +116,12 @@ def _format_header(axis: Axis, lines: Lines) -> None:
 
 
 def _is_compensated(axis: Axis) -> bool:
-    return any(True for _ in axis.compensations())
+    return bool(_listed(axis))
+
+
+def _listed(axis: Axis) -> list[Compensation]:
+    """Return the compensations that stand in a compensation list."""
+    return [one for one in axis.compensations if kind_of(one).list_kind is ListKind.COMPENSATION]
 
 
 def _axis_file(axis: Axis) -> str:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import ctypes
 import struct
 import zlib
-from dataclasses import replace
 from typing import Any
 
-from ..kernel.records import Tables
+from ..runtime.compile import Compiled
 from .layout import ctypes_of, to_c
 from .places import layout
 
@@ -18,14 +16,15 @@ HEADER_AFTER_CHECK = struct.Struct("<40sd")
 WORDS_A_LINE = 6
 
 
-def image_of(tables: Tables, guid: str) -> bytes:
+def image_of(compiled: Compiled, guid: str) -> bytes:
     """Return the image of tables; ``guid``: that of the modelDescription.xml they belong to, at most 39 characters."""
+    tables, pool = compiled
     axes = tables.axis[: tables.axis_count]
     volumetrics = tables.volumetric[: tables.volumetrics]
-    body = b"".join(_bytes_of(replace(axis, pool=[])) for axis in axes)
+    body = b"".join(_bytes_of(axis) for axis in axes)
     body += b"".join(_bytes_of(volumetric) for volumetric in volumetrics)
-    body += struct.pack(f"<{len(tables.pool)}d", *tables.pool)
-    before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(tables.pool))
+    body += struct.pack(f"<{len(pool)}d", *pool)
+    before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(pool))
     checked = HEADER_AFTER_CHECK.pack(guid.encode().ljust(40, b"\0")[:40], tables.cycle_time) + body
     return before + struct.pack("<I", zlib.crc32(checked)) + checked
 
@@ -45,7 +44,4 @@ def image_source(image: bytes) -> str:
 def _bytes_of(record: Any) -> bytes:
     structure = ctypes_of(type(record))()
     to_c(record, structure)
-    for name, kind, *_ in structure._fields_:
-        if kind is ctypes.POINTER(ctypes.c_double):
-            setattr(structure, name, None)
     return bytes(structure)

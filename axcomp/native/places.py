@@ -6,16 +6,26 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import zlib
 from collections.abc import Iterator
 from typing import Any
 
 from ..interface.variable import BLOCK, TYPE_NAMES
-from ..interface.variables import AXIS_BLOCK, MACHINE_BLOCK, VOLUMETRIC_BLOCK, Controls, every_place
-from ..kernel.record import zero
+from ..interface.variables import (
+    AXIS_BLOCK,
+    AXIS_DECLARATIONS,
+    MACHINE_BLOCK,
+    OF_MACHINE,
+    OF_VOLUMETRIC,
+    VOLUMETRIC_BLOCK,
+    Declaration,
+)
+from ..kernel.record import fields_of
 from ..kernel.records import AxisTable, Inputs, Outputs, State
 from ..kernel.volumetric_records import VolumetricTable
-from ..runtime.compile import CYCLE_TIME_MAX
+from ..kinds import KIND_NAMES, KINDS
+from ..model.machine import CYCLE_TIME_MAX
 from ..runtime.runtime import ON_INSTANT
 from .layout import ctypes_of
 
@@ -27,7 +37,8 @@ TABLES = {
 }
 """Table of places → block of value references that it describes (the first of its kind)."""
 
-NO_PLACE = "    {0, 0, 0}"
+NO_PLACE = "{0, 0, 0}"
+_KIND = re.compile(r"\[(\d+)\]")
 
 
 def layout() -> int:
@@ -43,7 +54,6 @@ def layout_header() -> str:
 #define AXCOMP_LAYOUT_H
 
 #define AXCOMP_LAYOUT 0x{layout():08x}u  /* of the records in images and states */
-#define AXCOMP_POINTER {ctypes.sizeof(ctypes.c_void_p)}u  /* bytes of a pointer in them */
 #define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
 
@@ -58,30 +68,38 @@ def places_source() -> str:
     places = dict(_places())
     parts = [f'{GENERATED}\n#include "places.h"\n\n#include <stddef.h>\n\n#include "instance.h"\n']
     for table, block in TABLES.items():
-        rows = [places.get(BLOCK * block + identifier, NO_PLACE) for identifier in range(BLOCK)]
+        last = max(reference for reference in places if reference // BLOCK == block) % BLOCK
+        rows = [f"    AT({i}) {places.get(BLOCK * block + i, NO_PLACE)}" for i in range(last + 1)]
         parts.append(f"const Place {table}[PLACES] = {{\n" + ",\n".join(rows) + "\n};\n")
+    rows = [
+        f"    AT({name.upper()}) " + (f'"{kind.notice}"' if kind.notice else "NULL") for name, kind in KINDS.items()
+    ]
+    notices = ",\n".join(rows)
+    parts.append(f"const char *const axcomp_notices[KINDS] = {{\n{notices}\n}};\n")
     return "\n".join(parts)
 
 
 def _places() -> Iterator[tuple[int, str]]:
-    inputs, outputs, controls = zero(Inputs), zero(Outputs), Controls()
-    containers = {
-        id(inputs): ("Memory", "inputs."),
-        id(outputs): ("Memory", "outputs."),
-        id(controls): ("Memory", "controls."),
-        id(inputs.axis[0]): ("AxisInputs", ""),
-        id(outputs.axis[0]): ("AxisOutputs", ""),
-        id(inputs.volumetric[0]): ("VolumetricInputs", ""),
-        id(outputs.volumetric[0]): ("VolumetricOutputs", ""),
-    }
-    for reference, declaration, record in every_place(1, inputs, outputs, controls, volumetrics=1):
-        if id(record) not in containers:
-            continue
-        structure, prefix = containers[id(record)]
-        kind = TYPE_NAMES[type(declaration.start)][0].lower()
-        causality = "t" if declaration.variability == "tunable" else declaration.causality[0]
-        offset = f"offsetof({structure}, {prefix}{declaration.field})"
-        yield reference, f"    {{'{kind}', '{causality}', {offset}}}"
+    blocks = ((MACHINE_BLOCK, OF_MACHINE), (AXIS_BLOCK, AXIS_DECLARATIONS), (VOLUMETRIC_BLOCK, OF_VOLUMETRIC))
+    for block, declarations in blocks:
+        for declared in declarations:
+            kind = TYPE_NAMES[type(declared.start)][0].lower()
+            causality = "t" if declared.variability == "tunable" else declared.causality[0]
+            place = f"offsetof({_member(block, declared)})"
+            yield BLOCK * block + declared.identifier, f"{{'{kind}', '{causality}', {place}}}"
+
+
+def _member(block: int, declared: Declaration) -> str:
+    """Return the structure that a variable lies in, and its member there, as C names them."""
+    direction = "Outputs" if declared.causality == "output" else "Inputs"
+    if block == AXIS_BLOCK:
+        return f"Axis{direction}, {_KIND.sub(lambda found: f'[{KIND_NAMES[int(found[1])].upper()}]', declared.field)}"
+    if block == VOLUMETRIC_BLOCK:
+        return f"Volumetric{direction}, {declared.field}"
+    record = (
+        direction.lower() if declared.field in fields_of(Outputs if direction == "Outputs" else Inputs) else "controls"
+    )
+    return f"Memory, {record}.{declared.field}"
 
 
 def _layout_of(cls: Any) -> list[str]:

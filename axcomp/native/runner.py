@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..interface.variable import Variable
+from ..kernel.record import Vec
 from ..kernel.records import Inputs, Outputs, State, Tables
 from ..runtime.runtime import Runtime
-from .layout import ctypes_of, from_c, to_c
+from .layout import ctypes_of, from_c, offset_of, to_c
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,23 +34,16 @@ class CompiledTables:
         What they were made of; the kernel never changes tables.
     structure : ctypes.Structure
         The same in C.
+    pool : ndarray
+        The numbers that they point into.
     """
 
-    def __init__(self, tables: Tables) -> None:
+    def __init__(self, tables: Tables, pool: Vec) -> None:
         self.tables = tables
         self.structure: Any = ctypes_of(Tables)()
-        axes = tables.axis[: tables.axis_count]
-        bare = replace(tables, pool=[], axis=[replace(axis, pool=[]) for axis in axes])
-        to_c(replace(bare, volumetric=tables.volumetric[: tables.volumetrics]), self.structure)
-        # Axes mostly share one pool.
-        pools = (tables.pool, *(axis.pool for axis in axes))
-        self._pools = {id(pool): np.array(pool, dtype=np.float64) for pool in pools}
-        self.structure.pool = self._address(tables.pool)
-        for index, axis in enumerate(axes):
-            self.structure.axis[index].pool = self._address(axis.pool)
-
-    def _address(self, pool: list[float]) -> Any:
-        return self._pools[id(pool)].ctypes.data_as(DOUBLES)
+        axes, volumetrics = tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics]
+        to_c(replace(tables, axis=axes, volumetric=volumetrics), self.structure)
+        self.pool = np.array(pool, dtype=np.float64)
 
 
 def run_compiled(
@@ -88,14 +82,15 @@ def run_compiled(
     values = np.empty((len(rows), len(results)))
     kernel.axcomp_run(
         ctypes.byref(compiled.structure),
+        compiled.pool.ctypes.data_as(DOUBLES),
         ctypes.byref(state),
         ctypes.byref(inputs),
         ctypes.byref(outputs),
         ctypes.c_int64(len(rows)),
-        _fields(ctypes_of(Inputs), given),
+        _fields(Inputs, given),
         ctypes.c_int32(len(given)),
         rows.ctypes.data_as(DOUBLES),
-        _fields(ctypes_of(Outputs), results),
+        _fields(Outputs, results),
         ctypes.c_int32(len(results)),
         values.ctypes.data_as(DOUBLES),
     )
@@ -108,13 +103,11 @@ def run_compiled(
 def _fields(cls: Any, variables: Sequence[Variable]) -> Any:
     fields = (_Field * len(variables))()
     for field, variable in zip(fields, variables, strict=True):
-        place, structure = 0, cls
+        place = ""
         if variable.axis is not None:
-            structure = dict(cls._fields_)["axis"]._type_
-            place = cls.axis.offset + variable.axis * ctypes.sizeof(structure)
+            place = f"axis[{variable.axis}]."
         elif variable.volumetric is not None:
-            structure = dict(cls._fields_)["volumetric"]._type_
-            place = cls.volumetric.offset + variable.volumetric * ctypes.sizeof(structure)
-        field.offset = place + getattr(structure, variable.field).offset
+            place = f"volumetric[{variable.volumetric}]."
+        field.offset = offset_of(cls, place + variable.field)
         field.type = {float: b"r", bool: b"b", int: b"i"}[type(variable.start)]
     return fields

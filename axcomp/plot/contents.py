@@ -9,10 +9,14 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ..convert.machines import tables_of
 from ..convert.table import closed
-from ..kernel.crosstalk import crosstalk_value
+from ..kernel.crosstalk import CrosstalkState, crosstalk_value
+from ..kernel.motion import Motion
 from ..kernel.record import zero
-from ..kernel.records import CrosstalkState
-from ..model.machine import KINDS, Axis, Crosstalk, CrosstalkCurve, Friction, Machine, Plane
+from ..kinds import KINDS
+from ..kinds.crosstalk import Crosstalk, CrosstalkCurve
+from ..kinds.friction import Friction
+from ..kinds.plane import Plane
+from ..model.machine import Axis, Machine
 from ..runtime.compile import compile_tables
 from .content import Content, Subject
 from .curves import Array, Curves, Line, Quantity
@@ -211,8 +215,8 @@ def _sampled(
     """Return what the kernel adds in µm or m° while the master accelerates at places of the adaptation axes."""
     # What else the axes have would only cost time.
     axes = tuple(Axis(one.number, one.name, crosstalk=axis.crosstalk if one == axis else None) for one in machine.axes)
-    tables = compile_tables(Machine(axes))
-    table = tables.axis[machine.index_of(axis.number)].crosstalk
+    tables, pool = compile_tables(Machine(axes))
+    table = tables.axis[machine.index_of(axis.number)].compensation.crosstalk
     nowhere = np.zeros(len(accelerations))
     places = zip(
         accelerations.tolist(),
@@ -221,6 +225,12 @@ def _sampled(
         strict=True,
     )
     state = zero(CrosstalkState)
-    return PER_MILLE * np.array(
-        [crosstalk_value(tables.pool, table, state, a, float(direction), p, q) for a, p, q in places]
-    )
+    motion = zero(Motion)
+    found = []
+    for acceleration, position1, position2 in places:
+        motion.axis[table.adaptation1.axis].setpoint = position1
+        motion.axis[table.adaptation2.axis].setpoint = position2
+        motion.axis[table.master].acceleration = acceleration
+        motion.axis[table.master].direction = direction
+        found.append(crosstalk_value(pool, table, state, motion))
+    return PER_MILLE * np.array(found)

@@ -48,9 +48,7 @@ def _counted(report: Report) -> str:
         f'<span class="{name if count else "info"}">{count} {name}{"" if count == 1 else "s"}</span>'
         for name, count in report.counts().items()
     ]
-    compensations = sum(1 for axis in report.machine.axes for _ in axis.compensations()) + len(
-        report.machine.volumetric
-    )
+    compensations = sum(len(axis.compensations) for axis in report.machine.axes) + len(report.machine.volumetric)
     return f"{', '.join(words)}; {len(report.machine.axes)} axes with {compensations} compensations in force."
 
 
@@ -60,7 +58,7 @@ def _machine(report: Report) -> Chapter:
         unit = unit_of(axis)
         modulo = f"{axis.modulo.start:g} … {axis.modulo.end:g} {unit}" if axis.modulo is not None else ""
         limit = f"{axis.volumetric_limit:g} mm" if axis.volumetric_limit is not None else ""
-        kinds = ", ".join(kind for kind, _ in axis.compensations())
+        kinds = ", ".join(one.kind for one in axis.compensations)
         rows.append((axis.name, str(axis.number), axis.type.name.lower(), modulo, limit, kinds or "none"))
     columns = ("axis", "number", "type", "modulo range", "s_limit", "compensations in force")
     body = _text(Records(columns, rows))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ..kernel.record import Vec
 from ..kernel.records import Tables
 from ..kernel.volumetric_records import (
     INTERPOLATE_GRID,
@@ -13,6 +14,7 @@ from ..kernel.volumetric_records import (
     ErrorBlock,
     VolumetricTable,
 )
+from ..kinds.compiling import CompileError, append
 from ..model.machine import Machine
 from ..model.volumetric import (
     COMPENSATIONS_MAX,
@@ -28,7 +30,6 @@ from ..model.volumetric import (
     is_grid,
     largest,
 )
-from .compile_pool import CompileError, append
 
 FULL_TURN = 360.0
 SHORTEST = 1e-9  # mm or °; along less than this, searching is left to the bisection
@@ -41,7 +42,7 @@ _INTERPOLATIONS = {
 }
 
 
-def compile_volumetric(machine: Machine, tables: Tables) -> None:
+def compile_volumetric(machine: Machine, tables: Tables, pool: Vec) -> None:
     """Fill the volumetric tables of a machine.
 
     Raises
@@ -56,7 +57,7 @@ def compile_volumetric(machine: Machine, tables: Tables) -> None:
         )
     tables.volumetrics = max(indices, default=-1) + 1
     for volumetric in machine.volumetric:
-        _Compiler(machine, volumetric, tables).compile()
+        _Compiler(machine, volumetric, tables.volumetric[volumetric.index], pool).compile()
 
 
 def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
@@ -73,11 +74,11 @@ def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
 class _Compiler:
     """Fills the tables of one compensation."""
 
-    def __init__(self, machine: Machine, volumetric: Volumetric, tables: Tables) -> None:
+    def __init__(self, machine: Machine, volumetric: Volumetric, table: VolumetricTable, pool: Vec) -> None:
         self.machine = machine
         self.volumetric = volumetric
-        self.table = tables.volumetric[volumetric.index]
-        self.pool = tables.pool
+        self.table = table
+        self.pool = pool
 
     def compile(self) -> None:
         volumetric, table = self.volumetric, self.table
@@ -197,7 +198,7 @@ class _Compiler:
         for d, letter in enumerate(first.arguments):
             block.argument[d] = LETTERS.index(letter)
             positions = [node[d] for node in nodes]
-            block.folded[d] = letter in ROTARY and min(positions) <= 0.0 and max(positions) >= FULL_TURN
+            self._fold(block, d, letter, min(positions), max(positions))
         if first.interpolation is Interpolation.GRID:
             order.sort(key=nodes.__getitem__)
             for d in range(block.arguments):
@@ -211,6 +212,16 @@ class _Compiler:
         else:
             block.knots[0] = self._append([x for node in nodes for x in node])
         block.values = self._append([error.values[n] for n in order for error in errors])
+
+    def _fold(self, block: ErrorBlock, d: int, letter: str, first: float, last: float) -> None:
+        """Say into which turn the position of a rotary axis is folded: where the table begins, or centred on it."""
+        if letter not in ROTARY:
+            return
+        modulo = self.machine.axes[self.table.axis[LETTERS.index(letter)]].modulo
+        if last - first >= FULL_TURN:
+            block.start[d], block.period[d] = first, FULL_TURN
+        elif modulo is not None:
+            block.start[d], block.period[d] = 0.5 * (first + last - modulo.length), modulo.length
 
     def _append(self, values: Sequence[float]) -> int:
         return append(self.pool, values, self._name())

@@ -10,15 +10,17 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ..kernel.adopt import adopt_axis, adopt_volumetrics, update_error
+from ..kernel.adopt import adopt_axis, adopt_volumetrics, keep_declared, update_error
+from ..kernel.compensations import has_left_table
 from ..kernel.cycle import cycle
 from ..kernel.initial import set_initial_inputs
 from ..kernel.record import zero
 from ..kernel.records import ERROR_UPDATE, Inputs, Outputs, State, Tables
 from ..kernel.volumetric_switching import adopt_volumetric
-from ..model.machine import Machine
+from ..kinds import kinds_of
+from ..model.machine import CYCLE_TIME, Machine
 from ..model.volumetric import Volumetric
-from .compile import CYCLE_TIME, compile_tables
+from .compile import compile_tables
 from .snapshot import SnapshotError, identity_of, pack, unpack
 
 ON_INSTANT = 0.01
@@ -58,28 +60,30 @@ class Runtime:
 
     def __init__(self, machine: Machine, cycle_time: float = CYCLE_TIME) -> None:
         self.machine = machine
-        self.tables = compile_tables(machine, cycle_time)
+        self.tables, self.pool = compile_tables(machine, cycle_time)
         self._identity: int | None = None
+        self._volumetrics = {volumetric.index for volumetric in machine.volumetric}
         self.inputs = initial_inputs(self.tables)
         self.state = zero(State)
         self.outputs = zero(Outputs)
         del self.state.axis[self.tables.axis_count :]
+        del self.state.motion.axis[self.tables.axis_count :]
         del self.outputs.axis[self.tables.axis_count :]
         del self.state.volumetric[self.tables.volumetrics :]
         del self.outputs.volumetric[self.tables.volumetrics :]
         self.start_time = 0.0
         self.cycles = 0
-        self._told: set[int] = set()
+        self._told: set[str] = set()
 
     def begin(self, time: float = 0.0) -> None:
         """Set the clock and compute the outputs of the first cycle without running it (end of initialization)."""
         self.start_time = time
         self.cycles = 0
-        cycle(self.tables, copy.deepcopy(self.state), self.inputs, self.outputs)
+        cycle(self.tables, self.pool, copy.deepcopy(self.state), self.inputs, self.outputs)
 
     def cycle(self) -> None:
         """Run one cycle: the outputs then belong to the present inputs."""
-        cycle(self.tables, self.state, self.inputs, self.outputs)
+        cycle(self.tables, self.pool, self.state, self.inputs, self.outputs)
         self.cycles += 1
 
     def advance(self, time: float) -> None:
@@ -107,17 +111,17 @@ class Runtime:
         if self._identity is None:
             tables = self.tables
             axes, volumetric = tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics]
-            pools = {id(pool): pool for pool in (tables.pool, *(axis.pool for axis in axes))}
-            self._identity = identity_of(tables.cycle_time, axes, volumetric, *pools.values())
+            self._identity = identity_of(tables.cycle_time, axes, volumetric, self.pool)
         return self._identity
 
     def notices(self) -> Iterator[str]:
         """Yield, once each, what the machine's user should know about the motion so far."""
-        for index, axis in enumerate(self.state.axis):
-            if axis.crosstalk.outside and index not in self._told:
-                self._told.add(index)
-                name = self.machine.axes[index].name
-                yield f"axis {name}: the adaptation axes of its crosstalk compensation have left the tests' positions"
+        for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
+            for kind in kinds_of(axis):
+                notice = f"axis {axis.name}: {kind.notice}"
+                if has_left_table(kind.number, state.compensation) and notice not in self._told:
+                    self._told.add(notice)
+                    yield notice
 
     def update(self, machine: Machine) -> dict[str, int]:
         """Take new lists while the machine runs.
@@ -140,27 +144,29 @@ class Runtime:
             (axis.number, axis.name, axis.type) for axis in self.machine.axes
         ]:
             raise UpdateError("the new lists have other axes than the ones in force")
-        new = {volumetric.index for volumetric in machine.volumetric}
-        if not new <= {volumetric.index for volumetric in self.machine.volumetric}:
+        if not {volumetric.index for volumetric in machine.volumetric} <= self._volumetrics:
             raise UpdateError("the new lists have a volumetric compensation that was not there")
-        before, after = self.tables, compile_tables(machine, self.tables.cycle_time)
-        errors = [update_error(*pair) for pair in zip(before.axis, after.axis, strict=True)]
+        before = self.tables
+        after, pool = compile_tables(machine, before.cycle_time)
+        errors = [update_error(*pair) for pair in zip(before.axis, after.axis, strict=True)][: len(machine.axes)]
         if ERROR_UPDATE in errors:
             name = machine.axes[errors.index(ERROR_UPDATE)].name
             raise UpdateError(f"the new lists give axis {name} a compensation it did not have")
-        axes = list(machine.axes)
-        for index, error in enumerate(errors[: len(axes)]):
-            state, outputs = self.state.axis[index], self.outputs.axis[index]
+        if any(errors):
+            pairs = zip(self.machine.axes, machine.axes, errors, strict=True)
+            machine = replace(machine, axes=tuple(old if error else new for old, new, error in pairs))
+            after, pool = compile_tables(machine, before.cycle_time)
+        for index, error in enumerate(errors):
+            state = self.state.axis[index]
             if error == 0:
-                adopt_axis(before.axis[index], after.axis[index], state, outputs)
+                adopt_axis(before.axis[index], after.axis[index], state, self.inputs.axis[index])
             else:
-                after.axis[index] = before.axis[index]
-                axes[index] = self.machine.axes[index]
-            state.error = outputs.error = error
+                keep_declared(before.axis[index], after.axis[index])
+            state.error = self.outputs.axis[index].error = error
         adopt_volumetrics(before, after, self.state, self.outputs)
-        self.machine, self.tables = replace(machine, axes=tuple(axes)), after
+        self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None
-        return {axis.name: error for axis, error in zip(axes, errors, strict=False) if error}
+        return {axis.name: error for axis, error in zip(machine.axes, errors, strict=True) if error}
 
     def update_volumetric(self, volumetric: Volumetric) -> None:
         """Take new data of one volumetric compensation, which is switched off for that without motion.
@@ -170,10 +176,12 @@ class Runtime:
         index = volumetric.index
         others = (one for one in self.machine.volumetric if one.index != index)
         machine = replace(self.machine, volumetric=tuple(sorted((*others, volumetric), key=lambda one: one.index)))
-        after = compile_tables(machine, self.tables.cycle_time)
+        after, pool = compile_tables(machine, self.tables.cycle_time)
+        for old, new in zip(self.tables.axis, after.axis, strict=True):
+            keep_declared(old, new)
         adopt_volumetric(self.tables.volumetric[index], after.volumetric[index], self.state.volumetric[index])
         self.outputs.volumetric[index].active = False
-        self.machine, self.tables = machine, after
+        self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None
 
 

@@ -11,12 +11,13 @@ from decimal import Decimal
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from ..kinds import KINDS
+from ..kinds.parameter import ListKind, key_of
 from ..lists import Finding, Severity, read_machine
 from ..lists.catalogue import SPELLINGS
 from ..lists.edit import edited
 from ..lists.grammar import decode, entries, number
-from ..lists.parameter import ListKind, key_of
-from ..model.machine import KINDS, Axis, Machine
+from ..model.machine import Axis, Machine
 
 Value = bool | int | float | str
 
@@ -150,7 +151,7 @@ def _times(values: Any, factor: float) -> Any:
 
 def _tables(machine: Machine) -> list[str]:
     axes: Sequence[Axis] = machine.axes
-    names = [f"{axis.name}.{kind}" for axis in axes for kind, _ in axis.compensations()]
+    names = [f"{axis.name}.{one.kind}" for axis in axes for one in axis.compensations]
     return names + [f"volumetric[{one.index}]" for one in machine.volumetric]
 
 

@@ -36,7 +36,7 @@ from typing import Any
 
 from ..engine.motion import Limits
 from ..engine.trajectory import LIMITS, InputError, InputFile, Motion, Sine, read_input
-from ..runtime.compile import CYCLE_TIME
+from ..model.machine import CYCLE_TIME
 from .errors import SpecError
 from .list_variation import Value
 from .reductions import Reduction

@@ -45,7 +45,7 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
     if (memcmp(header.magic, "AXCOMPT1", sizeof header.magic) != 0) {
         return "it is no image of axcomp's tables";
     }
-    if (header.layout != AXCOMP_LAYOUT || AXCOMP_POINTER != sizeof(void *)) {
+    if (header.layout != AXCOMP_LAYOUT) {
         return "it belongs to another version of axcomp, or to another kind of processor";
     }
     if (!size_fits(&header, size)) {
@@ -73,11 +73,8 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
     lists->cycle_time = tables->cycle_time = header.cycle_time;
     tables->axis_count = header.axes;
     tables->volumetrics = header.volumetrics;
-    tables->pool = lists->pool;
-    for (int i = 0; i < header.axes; i++) {
-        tables->axis[i].pool = lists->pool;
-    }
+    lists->numbers = (int32_t)header.numbers;
     lists->identity = header.check;
     memcpy(lists->guid, header.guid, sizeof lists->guid);
-    return axcomp_tables_fit(tables, (int32_t)header.numbers) ? NULL : "its tables contradict themselves";
+    return axcomp_tables_fit(tables, lists->pool, lists->numbers) ? NULL : "its tables contradict themselves";
 }

@@ -1,7 +1,7 @@
 /* Tables as an image: what the table compiler made, as a file in resources/ or as an array in the sources.
  *
  * Header (64 bytes), AxisTable[axes], VolumetricTable[volumetrics], double[numbers]; little-endian, as the compilers of
- * all supported platforms lay the records out. Nothing of an image is used before all of it has been checked. */
+ * all supported platforms lay the records out: there is no pointer in them. Nothing of an image is used before all of it has been checked. */
 #ifndef AXCOMP_IMAGE_H
 #define AXCOMP_IMAGE_H
 
@@ -35,7 +35,8 @@ typedef struct Lists {
     double cycle_time;   /* s; that of the tables may be set by the host */
     char guid[GUID_LENGTH];
     int32_t errors[AXES];  /* of an axis that keeps its old tables when these are taken: why; else 0 */
-    double *pool;          /* owned */
+    double *pool;          /* that the tables point into; owned */
+    int32_t numbers;       /* in the pool */
     struct Lists *next;
 } Lists;
 

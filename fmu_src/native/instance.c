@@ -53,7 +53,7 @@ void axcomp_begin_again(Instance *instance)
     memset(memory, 0, sizeof *memory);
     instance->lists = instance->first;
     instance->waiting = NULL;
-    instance->notice_given = false;
+    memset(instance->told, 0, sizeof instance->told);
     memory->phase = INSTANTIATED;
     memory->controls.cycle_time = instance->lists->cycle_time;
     axcomp_set_initial_inputs(&instance->lists->tables, &memory->inputs);
@@ -100,11 +100,39 @@ Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char
     return lists;
 }
 
+/* Let an axis of new lists keep the tables that are in force. */
+static bool keep_axis(Lists *lists, const Lists *now, int i)
+{
+    const AxisTable *old = &now->tables.axis[i];
+    size_t count = (size_t)lists->numbers + (size_t)old->numbers;
+    double *pool = (double *)realloc(lists->pool, (count + 1u) * sizeof *pool);
+    if (pool == NULL) {
+        return false;
+    }
+    memcpy(pool + lists->numbers, now->pool + old->first, (size_t)old->numbers * sizeof *pool);
+    lists->pool = pool;
+    lists->tables.axis[i] = *old;
+    axcomp_move_axis_table(&lists->tables.axis[i], lists->numbers);
+    lists->numbers = (int32_t)count;
+    return true;
+}
+
+/* Tell whether new lists have no volumetric compensation that was not declared at the start. */
+static bool volumetrics_fit(const Lists *lists, const Lists *declared)
+{
+    for (int k = 0; k < lists->tables.volumetrics; k++) {
+        if (lists->tables.volumetric[k].configured && !declared->tables.volumetric[k].configured) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Tell whether new lists can be taken at all; those axes that cannot take theirs get the ones in force. */
 static bool fit_update(const Instance *instance, Lists *lists)
 {
     const Lists *now = instance->lists;
-    if (lists->tables.axis_count != now->tables.axis_count || lists->tables.volumetrics > now->tables.volumetrics) {
+    if (lists->tables.axis_count != now->tables.axis_count || !volumetrics_fit(lists, instance->first)) {
         axcomp_say(instance, fmi2Warning,
                    "reload: the new lists have other axes or compensations than the ones in force");
         return false;
@@ -120,8 +148,11 @@ static bool fit_update(const Instance *instance, Lists *lists)
         if (lists->errors[i] != 0) {
             axcomp_say(instance, fmi2Warning, "reload: axis %d keeps its old lists: error %d", old->number,
                        lists->errors[i]);
-            lists->tables.axis[i] = *old;
             lists->identity = mixed;
+            if (!keep_axis(lists, now, i)) {
+                axcomp_say(instance, fmi2Warning, "reload: there is no memory for the new lists");
+                return false;
+            }
         }
     }
     return true;
@@ -182,7 +213,7 @@ static void take_update(Instance *instance)
             memory->state.axis[i].error = memory->outputs.axis[i].error = error;
             if (error == 0) {
                 axcomp_adopt_axis(&before->tables.axis[i], &after->tables.axis[i], &memory->state.axis[i],
-                                  &memory->outputs.axis[i]);
+                                  &memory->inputs.axis[i]);
             }
         }
     }
@@ -201,18 +232,20 @@ void axcomp_preview_outputs(Instance *instance)
     Memory *memory = &instance->memory;
     instance->lists->tables.cycle_time = memory->controls.cycle_time;
     instance->preview = memory->state;
-    axcomp_cycle(&instance->lists->tables, &instance->preview, &memory->inputs, &memory->outputs);
+    axcomp_cycle(&instance->lists->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
 }
 
-/* Tell, once, that crosstalk is computed from the edge of its tests. */
-static void give_notice(Instance *instance)
+/* Tell, once for an axis and a kind, that a compensation is used beyond its table. */
+static void give_notices(Instance *instance)
 {
-    for (int i = 0; !instance->notice_given && i < instance->lists->tables.axis_count; i++) {
-        if (instance->memory.state.axis[i].crosstalk.outside) {
-            instance->notice_given = true;
-            axcomp_say(instance, fmi2Warning,
-                       "axis %d: the adaptation axes of its crosstalk compensation have left the tests",
-                       instance->lists->tables.axis[i].number);
+    for (int i = 0; i < instance->lists->tables.axis_count; i++) {
+        for (int kind = 0; kind < KINDS; kind++) {
+            bool told = (instance->told[kind] >> i & 1u) != 0;
+            if (!told && axcomp_has_left_table(kind, &instance->memory.state.axis[i].compensation)) {
+                instance->told[kind] |= 1u << i;
+                axcomp_say(instance, fmi2Warning, "axis %d: %s", instance->lists->tables.axis[i].number,
+                           axcomp_notices[kind]);
+            }
         }
     }
 }
@@ -226,9 +259,9 @@ fmi2Status axcomp_advance(Instance *instance, double time)
     }
     take_update(instance);
     for (; memory->cycles < due; memory->cycles += 1.0) {
-        axcomp_cycle(&instance->lists->tables, &memory->state, &memory->inputs, &memory->outputs);
+        axcomp_cycle(&instance->lists->tables, instance->lists->pool, &memory->state, &memory->inputs, &memory->outputs);
     }
-    give_notice(instance);
+    give_notices(instance);
     return fmi2OK;
 }
 

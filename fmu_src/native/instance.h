@@ -46,7 +46,7 @@ typedef struct {
     Lists *first;
     Memory memory;
     State preview;        /* of the cycle that is computed during initialization, without being run */
-    bool notice_given;    /* that adaptation axes have left the tests' positions */
+    uint32_t told[KINDS]; /* bit i: that a kind of compensation of axis i has been used beyond its table */
 } Instance;
 
 enum { CATEGORY_WARNING, CATEGORY_ERROR, CATEGORY_ALL, CATEGORIES };

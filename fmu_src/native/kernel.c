@@ -1159,7 +1159,7 @@ void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs)
         }
         begin_inputs(&table->compensation, &given->compensation);
     }
-    for (int32_t k = 0; k < tables->volumetrics; k++) {
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
         inputs->volumetric[k].enable = tables->volumetric[k].configured && !tables->volumetric[k].manual;
         inputs->volumetric[k].factor_x = 1.0;
         inputs->volumetric[k].factor_y = 1.0;
@@ -2049,7 +2049,7 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
     if (-LARGEST_TOOL < inputs->tool_length && inputs->tool_length < LARGEST_TOOL) {
         state->tool_length = inputs->tool_length;
     }
-    for (int32_t k = 0; k < tables->volumetrics; k++) {
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
         const VolumetricTable *table = &tables->volumetric[k];
         if (table->configured) {
             VolumetricState *volumetric = &state->volumetric[k];
@@ -2207,6 +2207,15 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
     return 0;
 }
 
+/* Let what an axis activated at the start count for the next update too. */
+void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
+{
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        after->switching[kind].reserved = before->switching[kind].reserved;
+        after->switching[kind].points_error = before->switching[kind].points_error;
+    }
+}
+
 /* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
 void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given)
 {
@@ -2216,17 +2225,17 @@ void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axi
         if (!after->switching[kind].configured) {
             after->switching[kind].blend_cycles = before->switching[kind].blend_cycles;
         }
-        after->switching[kind].reserved = before->switching[kind].reserved;
-        after->switching[kind].points_error = before->switching[kind].points_error;
     }
+    axcomp_keep_declared(before, after);
     adopt_inputs(&before->compensation, &after->compensation, &given->compensation);
     axis->shift.step = int_min(axis->shift.step, after->shift_cycles);
 }
 
 /* Make the state of the volumetric compensations fit their new tables. */
-void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *state, Outputs *outputs)
+void axcomp_adopt_volumetrics(const Tables *before, Tables *after, State *state, Outputs *outputs)
 {
-    for (int32_t k = 0; k < before->volumetrics; k++) {
+    after->volumetrics = int_max(before->volumetrics, after->volumetrics);
+    for (int32_t k = 0, k_end = after->volumetrics; k < k_end; k++) {
         adopt_volumetric(&before->volumetric[k], &after->volumetric[k], &state->volumetric[k]);
         outputs->volumetric[k].active = false;
     }
@@ -2433,7 +2442,7 @@ bool axcomp_tables_fit(const Tables *tables, const double *pool, int32_t numbers
     if (!(0 <= tables->volumetrics && tables->volumetrics <= VOLUMETRICS)) {
         return false;
     }
-    for (int32_t k = 0; k < tables->volumetrics; k++) {
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
         if (!volumetric_fits(pool, &tables->volumetric[k], tables->axis_count, numbers)) {
             return false;
         }

@@ -557,8 +557,11 @@ AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable 
 /* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
 AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given);
 
+/* Let what an axis activated at the start count for the next update too. */
+AXCOMP_API void axcomp_keep_declared(const AxisTable *before, AxisTable *after);
+
 /* Make the state of the volumetric compensations fit their new tables. */
-AXCOMP_API void axcomp_adopt_volumetrics(const Tables *before, const Tables *after, State *state, Outputs *outputs);
+AXCOMP_API void axcomp_adopt_volumetrics(const Tables *before, Tables *after, State *state, Outputs *outputs);
 
 /* Follow the numbers of an axis to another place in the pool, where they begin at `first`. */
 AXCOMP_API void axcomp_move_axis_table(AxisTable *table, int32_t first);

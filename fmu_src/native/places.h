@@ -10,11 +10,21 @@ extern "C" {
 
 enum { PLACES = 64 };
 
+/* C++ has no designated initializers: there the rows simply follow each other. */
+#ifdef __cplusplus
+#define AT(identifier)
+#else
+#define AT(identifier) [identifier] =
+#endif
+
 typedef struct {
     char type;       /* 'r' Real, 'i' Integer, 'b' Boolean, 's' String; 0: no variable */
     char causality;  /* 'i' input, 'o' output, 'p' fixed parameter, 't' tunable parameter */
     unsigned offset; /* in Memory; of an axis or a volumetric compensation: in its inputs or outputs */
 } Place;
+
+/* What the user should know when a compensation is used beyond its table; NULL where that is no matter. */
+extern const char *const axcomp_notices[];
 
 extern const Place axcomp_machine_places[PLACES];
 extern const Place axcomp_axis_places[PLACES];

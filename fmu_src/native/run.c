@@ -31,7 +31,7 @@ static double field_of(const Outputs *outputs, Field field)
     return field.type == 'b' ? (double)*(const bool *)at : (double)*(const int32_t *)at;
 }
 
-void axcomp_run(const Tables *tables, State *state, Inputs *inputs, Outputs *outputs, int64_t rows,
+void axcomp_run(const Tables *tables, const double *pool, State *state, Inputs *inputs, Outputs *outputs, int64_t rows,
                 const Field *given_fields, int32_t given_count, const double *given, const Field *result_fields,
                 int32_t result_count, double *results)
 {
@@ -39,7 +39,7 @@ void axcomp_run(const Tables *tables, State *state, Inputs *inputs, Outputs *out
         for (int32_t k = 0; k < given_count; k++) {
             set_field(inputs, given_fields[k], *given++);
         }
-        axcomp_cycle(tables, state, inputs, outputs);
+        axcomp_cycle(tables, pool, state, inputs, outputs);
         for (int32_t k = 0; k < result_count; k++) {
             *results++ = field_of(outputs, result_fields[k]);
         }

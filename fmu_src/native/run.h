@@ -18,8 +18,8 @@ typedef struct {
 } Field;
 
 /* Run one cycle for each row of `given` (rows × given_fields) and put the outputs into `results` (rows × result_fields). */
-AXCOMP_API void axcomp_run(const Tables *tables, State *state, Inputs *inputs, Outputs *outputs, int64_t rows,
-                           const Field *given_fields, int32_t given_count, const double *given,
+AXCOMP_API void axcomp_run(const Tables *tables, const double *pool, State *state, Inputs *inputs, Outputs *outputs,
+                           int64_t rows, const Field *given_fields, int32_t given_count, const double *given,
                            const Field *result_fields, int32_t result_count, double *results);
 
 #ifdef __cplusplus

@@ -12,9 +12,10 @@ import fmpy
 import pytest
 
 from axcomp.cli import main
+from axcomp.kinds.leadscrew import Leadscrew
 from axcomp.lists import write_machine
 from axcomp.model.companions import models
-from axcomp.model.machine import Axis, Leadscrew, Machine
+from axcomp.model.machine import Axis, Machine
 from axcomp.native.compiler import own_platform
 from axcomp.native.image import MAGIC
 

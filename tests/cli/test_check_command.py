@@ -7,11 +7,12 @@ import pytest
 
 from axcomp.cli import main
 from axcomp.cli.check import STATUS_MAX
+from axcomp.kinds.cross import Cross
 from axcomp.lists import write_machine
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.lists.reference import PAGE, page
 from axcomp.model.companions import models
-from axcomp.model.machine import Axis, Cross, Machine
+from axcomp.model.machine import Axis, Machine
 
 Capture = pytest.CaptureFixture[str]
 

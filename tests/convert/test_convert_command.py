@@ -7,8 +7,11 @@ from pathlib import Path
 import pytest
 
 from axcomp.cli import convert, main
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
 from axcomp.lists import read_machine, write_machine
-from axcomp.model.machine import Axis, Cross, Leadscrew, Machine, Plane
+from axcomp.model.machine import Axis, Machine
 
 SCREW = Leadscrew((0.0, 10.0, 20.0), (0.0, 0.004, 0.001), (0.002, 0.005, 0.003), manual_activation=True)
 MACHINE = Machine(

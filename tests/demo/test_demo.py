@@ -13,7 +13,7 @@ from axcomp.cli.demo import PICTURE
 from axcomp.demo.picture import draw
 from axcomp.demo.run import BuildError, Demo, DemoError, demonstrate
 from axcomp.model.companions import models
-from axcomp.runtime.compile import CYCLE_TIME
+from axcomp.model.machine import CYCLE_TIME
 
 
 def check(demo: Demo) -> None:

@@ -10,9 +10,9 @@ import pytest
 from axcomp.demo.evaluation import Outcome, table
 from axcomp.demo.trials import Trial, trials_of
 from axcomp.engine.motion import Setpoints
+from axcomp.kinds import KINDS
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
-from axcomp.model.machine import KINDS
 from axcomp.plant.simulated import load_plant
 
 CYCLE = 0.001

@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from axcomp import Engine, Machine
-from axcomp.model.machine import Axis, Cross, Friction, Leadscrew
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.model.machine import Axis
 from axcomp.native.library import compiled_kernel
 
 

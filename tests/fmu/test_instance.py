@@ -20,8 +20,8 @@ from axcomp.fmu.instance import Instance
 from axcomp.fmu.saved import MAGIC
 from axcomp.interface.variable import Value
 from axcomp.interface.variables import by_name, variables_of
+from axcomp.kinds.parameter import Severity
 from axcomp.lists import write_machine
-from axcomp.lists.findings import Severity
 from axcomp.model.machine import Machine
 
 VARIABLES = by_name(variables_of(three_axes()))

@@ -6,18 +6,38 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from axcomp.kernel.records import AxisOutputs
+from axcomp.interface.slot import slot_in
+from axcomp.kinds import KIND_NAMES
 from axcomp.model.machine import Machine
 from axcomp.runtime.runtime import Runtime
 
-OUTPUTS = tuple(field.name for field in fields(AxisOutputs))
+OUTPUTS = {
+    **{
+        name: name
+        for name in (
+            "corrected_setpoint",
+            "display_position",
+            "correction",
+            "setpoint_shift",
+            "stop_request",
+            "error",
+            "volumetric_correction",
+        )
+    },
+    **{f"{kind}_correction": f"contribution[{i}]" for i, kind in enumerate(KIND_NAMES)},
+    **{f"{kind}_active": f"active[{i}]" for i, kind in enumerate(KIND_NAMES)},
+    "current": f"contribution[{KIND_NAMES.index('friction')}]",
+}
+"""Names of outputs in tests → their place in the record of an axis."""
+
+INPUTS = {f"{kind}_enable": f"enable[{i}]" for i, kind in enumerate(KIND_NAMES)}
+INPUTS |= {f"temperature_{name}": f"compensation.temperature.{name}" for name in ("offset", "coefficient")}
 
 
 def drive(machine: Machine | Runtime, columns: Mapping[str, ArrayLike]) -> dict[str, NDArray[Any]]:
@@ -31,15 +51,20 @@ def drive(machine: Machine | Runtime, columns: Mapping[str, ArrayLike]) -> dict[
     setters = []
     for column in columns:
         name, _, field = column.rpartition(".")
-        setters.append((runtime.inputs.axis[names.index(name)] if name else runtime.inputs, field))
+        record = runtime.inputs.axis[names.index(name)] if name else runtime.inputs
+        slot = slot_in(record, INPUTS.get(field, field))
+        assert slot is not None, column
+        setters.append(slot)
     outputs: dict[str, list[Any]] = {f"{name}.{field}": [] for name in names for field in OUTPUTS}
     for row in zip(*rows.values(), strict=True):
-        for (record, field), value in zip(setters, row, strict=True):
-            setattr(record, field, value)
+        for slot, value in zip(setters, row, strict=True):
+            slot.set(value)
         runtime.cycle()
         for name, axis in zip(names, runtime.outputs.axis, strict=True):
-            for field in OUTPUTS:
-                outputs[f"{name}.{field}"].append(getattr(axis, field))
+            for field, path in OUTPUTS.items():
+                slot = slot_in(axis, path)
+                assert slot is not None
+                outputs[f"{name}.{field}"].append(slot.get())
     return {name: np.array(values) for name, values in outputs.items()}
 
 

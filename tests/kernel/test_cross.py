@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from driving import drive, to_and_fro
 
-from axcomp.model.machine import Axis, Cross, Leadscrew, Machine
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.model.machine import Axis, Machine
 
 X_POSITIONS = (-40.0, -10.0, 0.0, 0.5, 3.0, 80.0)
 CORRECTIONS = (0.01, -0.02, 0.005, 0.03, 0.0, -0.01)

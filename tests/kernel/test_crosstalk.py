@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 from scipy.spatial import ConvexHull
 
-from axcomp.model.machine import Axis, Crosstalk, CrosstalkCurve, CrosstalkTest, Machine
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.runtime import Runtime
 
 ACCELERATION, DECELERATION = 2000.0, -1600.0

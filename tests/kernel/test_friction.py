@@ -7,7 +7,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from axcomp.model.machine import Axis, AxisType, Friction, Machine, ModuloRange
+from axcomp.kinds.friction import Friction
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.runtime.runtime import Runtime
 
 T = 1e-3

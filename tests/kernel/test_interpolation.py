@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.kernel.interpolation import curve_value, fold, nearest
+from axcomp.kernel.interpolation import Curve, Lookup, curve_value, fold, nearest
 from axcomp.kernel.record import zero
-from axcomp.kernel.records import Curve, Lookup
 
 numbers = st.floats(-1e6, 1e6)
 

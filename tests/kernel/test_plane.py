@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.model.machine import Axis, Machine, Plane
+from axcomp.kinds.plane import Plane
+from axcomp.model.machine import Axis, Machine
 
 
 def machine(corrections: np.ndarray, start: tuple[float, float], interval: tuple[float, float], **options) -> Machine:

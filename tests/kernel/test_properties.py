@@ -7,17 +7,12 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from strategies import machines
 
-from axcomp.model.machine import (
-    Axis,
-    Cross,
-    Crosstalk,
-    CrosstalkCurve,
-    Friction,
-    Leadscrew,
-    Machine,
-    ModuloRange,
-    Plane,
-)
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
+from axcomp.model.machine import Axis, Machine, ModuloRange
 from axcomp.runtime.runtime import Runtime
 
 EVENTS = (

@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
+from axcomp.kinds.parameter import ListKind, Parameter
 from axcomp.lists import Reading, list_files, read_machine, write_machine
 from axcomp.lists.catalogue import CATALOGUE
-from axcomp.lists.parameter import ListKind, Parameter
 from axcomp.model.machine import AXES_MAX, Machine
 from axcomp.runtime.compile import compile_tables
 

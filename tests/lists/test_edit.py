@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from axcomp.kinds.parameter import ListKind
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.lists.edit import edited
 from axcomp.lists.findings import Findings
-from axcomp.lists.parameter import ListKind
 from axcomp.lists.values import read_values
 
 OWNED = [f"kw.ssfk.{n}" for n in ("unit", "kw_nr_max", "interval", "kw_startpos", "bilateral")]

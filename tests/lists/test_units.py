@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from axcomp.kinds.parameter import Quantity
 from axcomp.lists import Reading
 from axcomp.lists.format import in_list
-from axcomp.lists.parameter import Quantity
 from axcomp.lists.values import Gear, convert, equidistant
 
 ReadLists = Callable[..., Reading]

@@ -9,8 +9,11 @@ import pytest
 from hypothesis import given, settings
 from strategies import machines
 
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
 from axcomp.lists import ListError, Severity, format_compensation_list, read_machine, write_machine
-from axcomp.model.machine import Axis, Cross, Leadscrew, Machine, Plane
+from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import compile_tables
 
 

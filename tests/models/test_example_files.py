@@ -13,10 +13,11 @@ from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv, write_expected
 from axcomp.demo.examples.machines import MACHINES
 from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.engine.engine import Engine
+from axcomp.kinds import KINDS
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
+from axcomp.kinds.parameter import Severity
 from axcomp.lists import read_machine
-from axcomp.lists.findings import Severity
 from axcomp.model.companions import models
-from axcomp.model.machine import KINDS, Crosstalk, CrosstalkCurve
 from axcomp.plant.simulated import load_plant
 
 MODELS = sorted(TRAJECTORIES)

@@ -4,19 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from axcomp.model.machine import (
-    Axis,
-    AxisType,
-    Cross,
-    Crosstalk,
-    CrosstalkCurve,
-    CrosstalkTest,
-    Friction,
-    Leadscrew,
-    Machine,
-    ModuloRange,
-    Plane,
-)
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.model.volumetric import ErrorTable, Volumetric
 
 SCREW = Leadscrew((0.0, 10.0, 40.0), (0.0, 0.004, -0.002), (0.001, 0.006, 0.001))

@@ -9,7 +9,8 @@ from scipy.interpolate import LinearNDInterpolator
 from shown_machines import MACHINE, MEASURED, PLANE, SCATTERED, SCREW, VOLUMETRIC, table
 
 from axcomp.engine.tcp_model import TcpModel
-from axcomp.model.machine import Axis, Leadscrew, Machine
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.model.machine import Axis, Machine
 from axcomp.model.volumetric import Volumetric
 from axcomp.plot.bars import Bars
 from axcomp.plot.content import Content, NotComparableError, Subject, spread

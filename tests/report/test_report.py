@@ -16,9 +16,12 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
 from axcomp.lists import write_machine
 from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Cross, Friction, Leadscrew, Machine, ModuloRange
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.model.volumetric import ErrorTable, Volumetric
 from axcomp.report.report import make_report
 

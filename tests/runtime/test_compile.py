@@ -9,20 +9,13 @@ from strategies import machines
 
 from axcomp.kernel.crosstalk import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
 from axcomp.kernel.fit import tables_fit
-from axcomp.model.machine import (
-    Axis,
-    AxisType,
-    Cross,
-    Crosstalk,
-    CrosstalkCurve,
-    CrosstalkTest,
-    Friction,
-    Leadscrew,
-    Machine,
-    ModuloRange,
-    Plane,
-)
-from axcomp.runtime.compile import CYCLE_TIME, CompileError, compile_tables
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from axcomp.kinds.friction import Friction
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
+from axcomp.model.machine import CYCLE_TIME, Axis, AxisType, Machine, ModuloRange
+from axcomp.runtime.compile import CompileError, compile_tables
 
 NAN, INF = math.nan, math.inf
 X = Axis(1, "X")

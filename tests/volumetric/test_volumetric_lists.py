@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rigid_bodies import NUMBERS, machine_of, volumetric
 
+from axcomp.kinds.parameter import ListKind, Manual
 from axcomp.lists import ListError, Reading, list_files, read_machine, write_machine
 from axcomp.lists.catalogue import CATALOGUE
-from axcomp.lists.parameter import ListKind, Manual
 from axcomp.model.machine import AxisType
 from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Interpolation, Volumetric
 from axcomp.runtime.compile import compile_tables

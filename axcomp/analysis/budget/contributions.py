@@ -19,7 +19,8 @@ from ...engine.engine import Engine, Result
 from ...engine.motion import Array
 from ...engine.trajectory import Columns, InputFile, completed
 from ...interface.variable import Variable, with_causality
-from ...model.machine import KINDS, Axis, Machine
+from ...kinds import KINDS
+from ...model.machine import Axis, Machine
 from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from .model import CorrectionModel
 

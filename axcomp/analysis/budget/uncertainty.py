@@ -24,8 +24,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...kinds import KINDS
 from ...lists.grammar import decode
-from ...model.machine import KINDS, AxisType, Machine
+from ...model.machine import AxisType, Machine
 from ...model.volumetric import ERRORS, Interpolation, is_angle
 
 LENGTHS = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}

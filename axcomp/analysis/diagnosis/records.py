@@ -9,13 +9,13 @@ from os import PathLike
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
+from ...kinds.parameter import ListKind
 from ...lists import Finding, Reading
 from ...lists.catalogue_volumetric import ETALON_EXCHANGE
 from ...lists.etalon import read_etalon
 from ...lists.files import Files
 from ...lists.findings import Findings
 from ...lists.isg_csv import read_isg_csv
-from ...lists.parameter import ListKind
 from ...lists.start_up import find_lists
 from ...lists.values import ListValues, read_values
 from ...lists.volumetric_blocks import ParameterBlock

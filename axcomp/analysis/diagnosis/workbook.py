@@ -22,8 +22,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.xml.functions import tostring
 
 from ...fmu.archive import generation_date, write_fmu
+from ...kinds.parameter import ListKind, Parameter
 from ...lists.catalogue import CATALOGUE, parameter
-from ...lists.parameter import ListKind, Parameter
 from ...model.volumetric import AXIS_NUMBERS, DIRECTIONS, FILES_MAX, LETTERS, LINEAR, TOOL_ORIENTATION, is_angle
 from .records import FILE_NAME, MAX_RECORDS, Diagnosis, ParameterFile, Record
 

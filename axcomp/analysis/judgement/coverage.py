@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from ...kinds.crosstalk import Crosstalk, CrosstalkCurve
 from ...lists.findings import Findings
-from ...model.machine import Axis, AxisType, Crosstalk, CrosstalkCurve, Machine
+from ...model.machine import Axis, AxisType, Machine
 from ...model.volumetric import ErrorTable, Volumetric
 from .curves import PLANE_ENTRY, Array, curves_of, grids_of, unit_of
 from .places import ListPlaces, Place

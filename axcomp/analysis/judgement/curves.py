@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from ...convert.machines import tables_of
 from ...convert.table import CompensationTable, closed
-from ...model.machine import Axis, Machine, Plane
+from ...kinds.plane import Plane
+from ...model.machine import Axis, Machine
 
 Array = npt.NDArray[np.float64]
 

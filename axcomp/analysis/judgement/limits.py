@@ -94,11 +94,11 @@ def _corrections(
 ) -> Iterator[tuple[tuple[float, ...], list[float]]]:
     """Yield positions of the six axes and the corrections of X, Y and Z there."""
     axes = tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes)
-    tables = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
+    tables, pool = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
     table = tables.volumetric[0]
     for position in product(*_sides(machine, volumetric)):
         errors, correction = zeros(len(ERRORS)), zeros(len(LINEAR))
-        errors_at(tables.pool, table, list(position), errors)
+        errors_at(pool, table, list(position), errors)
         if correction_at(table, list(position), tool_length, errors, correction):
             yield position, correction
 

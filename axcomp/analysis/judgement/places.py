@@ -7,10 +7,10 @@ from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
+from ...kinds.parameter import ListKind
 from ...lists.catalogue import parameter
 from ...lists.files import Files
 from ...lists.findings import Findings
-from ...lists.parameter import ListKind
 from ...lists.start_up import MachineFiles, find_lists
 from ...lists.values import ListValues, read_values
 

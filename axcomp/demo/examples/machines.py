@@ -9,19 +9,12 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
-from ...model.machine import (
-    Axis,
-    AxisType,
-    Cross,
-    Crosstalk,
-    CrosstalkCurve,
-    CrosstalkTest,
-    Friction,
-    Leadscrew,
-    Machine,
-    ModuloRange,
-    Plane,
-)
+from ...kinds.cross import Cross
+from ...kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from ...kinds.friction import Friction
+from ...kinds.leadscrew import Leadscrew
+from ...kinds.plane import Plane
+from ...model.machine import Axis, AxisType, Machine, ModuloRange
 from ...plant.machine import Plant
 from ...plant.simulated import acceleration_test, flatness, friction_current, positioning, straightness
 from .five_axis import five_axis

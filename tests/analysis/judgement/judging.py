@@ -9,10 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from axcomp.analysis.judgement import Judgement, judge
+from axcomp.kinds.cross import Cross
+from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds.plane import Plane
 from axcomp.lists import read_machine
 from axcomp.measurement.positioning import Positioning
 from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Cross, Leadscrew, Machine, ModuloRange, Plane
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.plant.simulated import load_plant, positioning, straightness
 
 THREE_AXIS = models() / "three_axis"

@@ -9,7 +9,8 @@ from axcomp.analysis.judgement.curves import curves_of
 from axcomp.analysis.judgement.dynamics import dynamics_of, ramp_rates
 from axcomp.analysis.judgement.seam import seam_of
 from axcomp.engine.engine import Engine
-from axcomp.model.machine import Axis, AxisType, Cross, Machine, ModuloRange
+from axcomp.kinds.cross import Cross
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 FEED = Demand({"": 500.0})
 

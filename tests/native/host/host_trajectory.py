@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from axcomp import Engine, Machine
 from axcomp.interface.variable import Variable
 from axcomp.interface.variables import variables_of
-from axcomp.runtime.compile import CYCLE_TIME
+from axcomp.model.machine import CYCLE_TIME
 
 Columns = Mapping[str, NDArray[Any]]
 NOT_GIVEN = ("reload",)

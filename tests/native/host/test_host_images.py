@@ -17,9 +17,10 @@ from host_trajectory import motion, write_trajectory
 from axcomp.bench.machines import machine_of
 from axcomp.interface.variable import BLOCK
 from axcomp.kernel.records import ERROR_UPDATE
+from axcomp.kinds.leadscrew import Leadscrew
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
-from axcomp.model.machine import Leadscrew, Machine
+from axcomp.model.machine import Machine
 from axcomp.native.image import image_of
 from axcomp.runtime.compile import compile_tables
 

@@ -1,4 +1,4 @@
-"""What the catalogue says about one list parameter."""
+"""What declarations are made of: parameters of the lists with their types, units and ranges, and codes of findings."""
 
 from __future__ import annotations
 
@@ -8,9 +8,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cache, cached_property
+from typing import Any
 
 Value = int | Decimal | str
 """A value as it stands in a list: Booleans are 0 or 1, decimals are exact."""
+
+
+class Severity(enum.Enum):
+    """How much a finding matters; the order of the members is the order of the matter."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+Codes = Mapping[str, tuple[Severity, str]]
+"""Codes of findings → their severity and what they mean."""
 
 
 class ListKind(enum.Enum):
@@ -56,6 +69,7 @@ class Quantity(enum.Enum):
     ACCELERATION = ("mm/s²", "", 1)
     CURRENT = ("drive unit", "drive unit", 1)
     PER_MILLE = ("0.1 %", "0.1 %", 1_000)
+    GRADIENT = ("µm/m", "0.001°/°", 1_000_000)
 
     @property
     def divisor(self) -> int:
@@ -208,3 +222,42 @@ class Parameter:
 def key_of(name: str) -> str:
     """Return a name in small letters with empty indices, as the catalogue is searched by."""
     return re.sub(r"\[[^\]]*\]", "[]", name).lower()
+
+
+def isg(number: str) -> dict[Manual, str]:
+    """Return the id that only the ISG manual has."""
+    return {Manual.ISG: f"P-COMP-{number}"}
+
+
+def twincat(number: str) -> dict[Manual, str]:
+    """Return the id that only the TwinCAT manual has."""
+    return {Manual.TWINCAT: f"P-COMP-{number}"}
+
+
+def both(number: str) -> dict[Manual, str]:
+    """Return the id that both manuals of the compensation lists have."""
+    return isg(number) | twincat(number)
+
+
+def axis(number: str) -> dict[Manual, str]:
+    """Return an id of the axis lists, where it is known."""
+    return {Manual.AXIS: f"P-AXIS-{number}" if number else ""}
+
+
+def activation(name: str, what: str, number: str) -> Parameter:
+    """Return the axis parameter that activates a compensation."""
+    return Parameter(name, f"Activates the {what}", DataType.BOOLEAN, 0, axis(number))
+
+
+BELOW_MAX = "[MIN, MAX)"
+AXIS_NUMBER = "[1, MAX]"
+
+
+def smooth_switching(name: str, number: str) -> Parameter:
+    """Return the number of cycles of smooth switching."""
+    return Parameter(name, "Cycles of smooth switching", DataType.UNS16, 0, both(number), Quantity.CYCLES, "[0, 20]")
+
+
+def position(name: str, meaning: str, ids: Mapping[Manual, str], **more: Any) -> Parameter:
+    """Return a position or a correction of 32 bits."""
+    return Parameter(name, meaning, DataType.SGN32, 0, ids, Quantity.POSITION, BELOW_MAX, **more)
