@@ -212,7 +212,7 @@ class TargetList:
 
     def _rows_stay(self, kind: str, compensation: Any) -> bool:
         """Tell whether the rows of a table are for the same positions as before."""
-        before = self._parsed(kind, self.values)
+        before = self._parsed(kind, self.values, Findings())
         names = [name for name in _PLACES if hasattr(compensation, name)]
         return (
             type(before) is type(compensation)
@@ -220,9 +220,8 @@ class TargetList:
             and all(getattr(before, name) == getattr(compensation, name) for name in names)
         )
 
-    def _parsed(self, kind: str, values: ListValues) -> Any:
+    def _parsed(self, kind: str, values: ListValues, findings: Findings) -> Any:
         """Return the compensation that values describe for the axis, whatever axes it refers to."""
-        findings = Findings()
         axes = Axes(findings, invent=True)
         for axis in () if self.reading is None else self.reading.axes.all():
             axes.add(axis, values.file, 0, "")
@@ -232,7 +231,8 @@ class TargetList:
 
     def _check(self, kind: str, intended: Any, document: Document, with_max_points: bool) -> None:
         """Read the new list and compare: a list with a damaged group could hide what is put into it."""
-        found = self._parsed(kind, document.values)
+        findings = Findings()
+        found = self._parsed(kind, document.values, findings)
         if type(found) is type(intended):
             names = {field.name for field in fields(intended)}
             kept = {name for name in _SETTINGS.values() if name in names}
@@ -240,4 +240,5 @@ class TargetList:
                 kept.discard("max_points")
             if replace(intended, **{name: getattr(found, name) for name in kept}) == found:
                 return
-        raise ValueError(f"{self.path}: with the new {kind} table the list would not say what is meant; is it damaged?")
+        why = next((f.message for f in findings.all() if f.severity is Severity.ERROR), "is it damaged?")
+        raise ValueError(f"{self.path}: with the new {kind} table the list would not say what is meant; {why}")
