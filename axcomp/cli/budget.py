@@ -68,8 +68,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_budget(args: argparse.Namespace) -> int:
-    machine, findings = read_machine(args.path)
-    for finding in findings:
+    reading = read_machine(args.path)
+    machine = reading.machine
+    for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)
     fault = "" if machine.axes else f"{args.path}: there is no axis in these lists"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +13,7 @@ from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, per_m
 from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
 from ..convert.table import CannotHoldError, CompensationTable, FormatError
 from ..kinds import KINDS
-from ..lists import Severity, read_machine, write_machine
+from ..lists import Severity, machine_documents, read_machine, write_machine
 from ..lists.grammar import decode
 from ..model.companions import machine_path
 from ..model.machine import Machine
@@ -132,21 +131,19 @@ def _read(args: argparse.Namespace) -> tuple[list[CompensationTable], list[str]]
 
 
 def _machine(path: Path) -> Machine:
-    machine, findings = read_machine(path)
-    for finding in findings:
+    reading = read_machine(path)
+    for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)
-    return machine
+    return reading.machine
 
 
 def _write_lists(tables: Sequence[CompensationTable], args: argparse.Namespace) -> list[Compared]:
-    """Write a machine's lists once they are found to be right in another place."""
+    """Write a machine's lists once what they say is found to be right."""
     if args.output is None:
         raise CannotHoldError("lists are several files: give a folder for them with --output")
     machine = machine_with(tables, None if args.machine is None else _machine(args.machine))
-    with tempfile.TemporaryDirectory() as folder:
-        write_machine(machine, folder)
-        back = read_machine(folder).machine
+    back = read_machine(args.output, documents=machine_documents(machine, args.output)).machine
     after = [table for kind in CONVERTED for table in _all_of(back, kind)]
     result = compared(tables, after, args.within)
     write_machine(machine, args.output)

@@ -12,6 +12,7 @@ from ..analysis.judgement import Demand, Judgement, judge, sign_of
 from ..analysis.judgement.dynamics import CYCLE_TIME
 from ..analysis.judgement.trajectory import setpoints
 from ..engine.trajectory import InputFile, read_input
+from ..lists import Reading
 from ..measurement.columns import MeasurementError
 from ..measurement.positioning import Positioning, read_positioning
 from ..model.machine import Machine
@@ -99,11 +100,11 @@ def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
     return Evidence(tuple(measurements), tuple(readings), demand, given, tuple(faults))
 
 
-def judgement_of(options: argparse.Namespace, machine: Machine, evidence: Evidence) -> Judgement:
+def judgement_of(options: argparse.Namespace, reading: Reading, evidence: Evidence) -> Judgement:
     """Judge the machine by all there is."""
     return judge(
-        machine,
-        options.path,
+        reading.machine,
+        reading,
         measurements=evidence.measurements,
         demand=evidence.demand,
         trajectory=None if evidence.input is None else evidence.input.columns,

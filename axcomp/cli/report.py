@@ -57,7 +57,7 @@ def _do_report(options: argparse.Namespace) -> int:
         return 1
     evidence = evidence_of(options, reading.machine)
     report = make_report(
-        options.path,
+        reading,
         readings=evidence.readings,
         measurements=evidence.measurements,
         demand=evidence.demand,

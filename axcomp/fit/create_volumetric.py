@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engine.motion import Array
+from ..lists.saving import write_whole
 from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric, is_angle
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, leave_one_run_out
 from .volumetric_identification import NODES_MAX, Identification, Identifier
@@ -50,7 +51,7 @@ class VolumetricCreation(Creation):
         """Write the parameter file, in its place or elsewhere, and the list if it is new; return the former's place."""
         target = super().write(path)
         if self.list_data is not None and path is None:
-            self.list_path.write_bytes(self.list_data)
+            write_whole(self.list_path, self.list_data)
         return target
 
     def errors(self) -> list[dict[str, Any]]:

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..lists.saving import write_whole
 from .thinning import Places, closest, deviation, fewest
 
 if TYPE_CHECKING:
@@ -106,9 +107,9 @@ class Creation:
     draw: Callable[[Axes], None] = field(repr=False, default=lambda _: None)
 
     def write(self, path: str | Path | None = None) -> Path:
-        """Write the list, in its place or elsewhere; return where it is."""
+        """Write the list where it was read or elsewhere, whole or not at all; return where it is."""
         target = self.path if path is None else Path(path)
-        target.write_bytes(self.data)
+        write_whole(target, self.data)
         return target
 
     def plot(self, ax: Axes | None = None) -> Axes:

@@ -174,7 +174,8 @@ def test_the_manuals_value_is_subtracted_in_either_direction() -> None:
 
 
 def test_the_manuals_examples_get_the_findings_they_deserve() -> None:
-    machine, findings = read_machine(MANUALS)
+    reading = read_machine(MANUALS)
+    machine, findings = reading.machine, reading.findings
     found = {(Path(finding.file).name, finding.line, finding.code) for finding in findings}
     assert ("achsmd2.lis", 3, "AXC-ELISION") in found
     assert ("achskw1.lis", 23, "AXC-ELISION") in found

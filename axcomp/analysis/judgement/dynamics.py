@@ -19,7 +19,7 @@ import numpy as np
 from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
 from .curves import PER_MILLE, PLANE_ENTRY, Array, curves_of, grids_of, rate, thousandth_of, unit_of
-from .places import ListPlaces
+from .positions import Positions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -252,30 +252,30 @@ def _shape(x: Array, rows: Array, repeats: bool) -> tuple[Array, Array, Array, A
     return np.column_stack([x[:-1], x[1:]]), largest, kink, places, kink / distances
 
 
-def judge_dynamics(machine: Machine, demand: Demand, places: ListPlaces, findings: Findings) -> list[DynamicsResult]:
+def judge_dynamics(machine: Machine, demand: Demand, positions: Positions, findings: Findings) -> list[DynamicsResult]:
     """Note and return what tables ask for: the figures at a feed, and whatever is beyond the limits."""
     results = list(dynamics_of(machine, demand))
     for result in results:
         unit, name, size = unit_of(result.axis), result.axis.name, f"{result.name[0].upper()}{result.name[1:]}"
-        place = places.of_table(result.axis.number, result.entry, *([0] * result.entry.count("[")))
+        position = positions.of_table(result.axis.number, result.entry, *([0] * result.entry.count("[")))
         velocity_limit = demand.of(demand.velocity, name, math.inf)
         acceleration_limit = demand.of(demand.acceleration, name, math.inf)
         if result.feed and len(result.slopes):
-            findings.add("AXC-DYNAMICS", *place, f"{size} {_asks(result)}.")
+            findings.add("AXC-DYNAMICS", *position, f"{size} {_asks(result)}.")
             own = demand.of(demand.feed, name, 0.0)
             if own + result.added_velocity > velocity_limit:
                 message = (
                     f"{size} adds {rate(result.added_velocity)} {unit}/s to the {own:g} {unit}/s of {name}: that is "
                     f"above its {velocity_limit:g} {unit}/s."
                 )
-                findings.add("AXC-DYNAMICS-VELOCITY", *place, message)
+                findings.add("AXC-DYNAMICS-VELOCITY", *position, message)
             if result.added_acceleration > acceleration_limit:
                 at = f"{result.kinks_at[result.sharpest]:g} {unit_of(result.over)}"
                 message = (
                     f"The kink at {at} of {result.name} asks {name} for {rate(result.added_acceleration)} {unit}/s² "
                     f"within a cycle, above its {acceleration_limit:g} {unit}/s²."
                 )
-                findings.add("AXC-DYNAMICS-KINK", *place, message)
+                findings.add("AXC-DYNAMICS-KINK", *position, message)
         for what, jump, cycles, velocity, acceleration in (
             ("Switching", result.jump, result.jump_cycles, result.jump_velocity, result.jump_acceleration),
             (
@@ -298,7 +298,7 @@ def judge_dynamics(machine: Machine, demand: Demand, places: ListPlaces, finding
                 over = f"over {cycles} cycles" if cycles > 1 else "at once"
                 moved = f"{PER_MILLE * jump:.1f} {thousandth_of(result.axis)}"
                 message = f"{what} {result.name} moves {name} by up to {moved} {over}: {', and '.join(above)}."
-                findings.add("AXC-DYNAMICS-JUMP", *place, message)
+                findings.add("AXC-DYNAMICS-JUMP", *position, message)
     return results
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from os import PathLike
 from typing import Any
 
-from ...lists.findings import Finding, Findings
+from ...lists import Finding, Reading
+from ...lists.findings import Findings
 from ...measurement.positioning import Positioning
 from ...model.machine import Machine
 from .coverage import Coverage, judge_coverage
@@ -15,7 +15,7 @@ from .curves import Array
 from .dynamics import Demand, DynamicsResult, judge_dynamics
 from .limits import LargestCorrection, judge_limits
 from .outliers import judge_outliers
-from .places import ListPlaces
+from .positions import Positions
 from .seam import judge_seams
 from .sign import SignResult, judge_signs
 
@@ -52,7 +52,7 @@ class Judgement:
 
 def judge(
     machine: Machine,
-    path: str | PathLike[str] | None = None,
+    reading: Reading | None = None,
     *,
     measurements: Sequence[tuple[Positioning, str, str]] = (),
     demand: Demand | None = None,
@@ -65,8 +65,8 @@ def judge(
     ----------
     machine : Machine
         Whose tables.
-    path : path or None
-        Of its lists, so that findings name file and line.
+    reading : Reading or None
+        Of its lists, so that findings name file, line and column.
     measurements : sequence of (Positioning, str, str)
         Taken without the compensation, with the names of the axis that deviates and of the one that moved.
     demand : Demand or None
@@ -81,11 +81,12 @@ def judge(
     ValueError
         A measurement or a trajectory does not belong to the machine.
     """
-    places, findings = ListPlaces(path), Findings()
-    judge_outliers(machine, places, findings)
-    judge_seams(machine, places, findings)
-    limits = judge_limits(machine, places, findings, tool_length)
-    signs = judge_signs(machine, measurements, places, findings)
-    dynamics = [] if demand is None else judge_dynamics(machine, demand, places, findings)
-    coverage = [] if trajectory is None else judge_coverage(machine, trajectory, places, findings)
-    return Judgement(findings.all(), tuple(signs), tuple(dynamics), tuple(coverage), tuple(limits))
+    positions, findings = Positions(reading), Findings()
+    judge_outliers(machine, positions, findings)
+    judge_seams(machine, positions, findings)
+    limits = judge_limits(machine, positions, findings, tool_length)
+    signs = judge_signs(machine, measurements, positions, findings)
+    dynamics = [] if demand is None else judge_dynamics(machine, demand, positions, findings)
+    coverage = [] if trajectory is None else judge_coverage(machine, trajectory, positions, findings)
+    said = findings.all() if reading is None else reading.located(findings.all())
+    return Judgement(said, tuple(signs), tuple(dynamics), tuple(coverage), tuple(limits))

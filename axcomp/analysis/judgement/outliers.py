@@ -17,7 +17,7 @@ import numpy.typing as npt
 from ...lists.findings import Findings
 from ...model.machine import Machine
 from .curves import PER_MILLE, PLANE_ENTRY, Array, Curve, Grid, curves_of, grids_of, thousandth_of, unit_of
-from .places import ListPlaces
+from .positions import Positions
 
 Indices = npt.NDArray[np.intp]
 
@@ -95,7 +95,7 @@ def _line(x: Array, y: Array, a: Indices, b: Indices, at: Indices) -> Array:
     return value
 
 
-def judge_outliers(machine: Machine, places: ListPlaces, findings: Findings) -> None:
+def judge_outliers(machine: Machine, positions: Positions, findings: Findings) -> None:
     """Note the outliers of all leadscrew, cross and plane tables."""
     for curve in curves_of(machine):
         for index, distance, ordinary in _of_curve(curve):
@@ -107,8 +107,8 @@ def judge_outliers(machine: Machine, places: ListPlaces, findings: Findings) -> 
             message = (
                 f"The value {value:.1f} {unit} at {at} is {_off(sign * distance, ordinary, unit)} in {curve.name}."
             )
-            place = places.of_table(curve.axis.number, curve.entry, index)
-            findings.add("AXC-OUTLIER", *place, message)
+            position = positions.of_table(curve.axis.number, curve.entry, index)
+            findings.add("AXC-OUTLIER", *position, message)
     for grid in grids_of(machine):
         for row, column, distance, ordinary in _of_grid(grid):
             unit = thousandth_of(grid.axis)
@@ -118,8 +118,8 @@ def judge_outliers(machine: Machine, places: ListPlaces, findings: Findings) -> 
             )
             value = PER_MILLE * grid.values[row, column]
             message = f"The value {value:.1f} {unit} at {at} is {_off(distance, ordinary, unit)} in {grid.name}."
-            place = places.of_table(grid.axis.number, PLANE_ENTRY, row, column)
-            findings.add("AXC-OUTLIER", *place, message)
+            position = positions.of_table(grid.axis.number, PLANE_ENTRY, row, column)
+            findings.add("AXC-OUTLIER", *position, message)
 
 
 def _off(distance: float, ordinary: float, unit: str) -> str:

@@ -14,7 +14,7 @@ import numpy as np
 from ...lists.findings import Findings
 from ...model.machine import Machine
 from .curves import PER_MILLE, Curve, curves_of, thousandth_of, unit_of
-from .places import ListPlaces
+from .positions import Positions
 
 STEEPER = 3.0
 """From this ratio on of the slope over the gap to the steepest one of the table, the gap is doubtful."""
@@ -66,7 +66,7 @@ def seam_of(curve: Curve) -> Seam | None:
     return Seam(modulo.end, 0.0, float(behind - before), np.inf)
 
 
-def judge_seams(machine: Machine, places: ListPlaces, findings: Findings) -> None:
+def judge_seams(machine: Machine, positions: Positions, findings: Findings) -> None:
     """Note doubtful seams of all leadscrew and cross tables."""
     for curve in curves_of(machine):
         seam = seam_of(curve)
@@ -83,5 +83,5 @@ def judge_seams(machine: Machine, places: ListPlaces, findings: Findings) -> Non
         else:
             where = f"where {curve.over.name} begins again at {seam.at:g} {position}"
             message = f"The correction steps by {change} {where}, by {curve.name}."
-        place = places.of_table(curve.axis.number, curve.entry, len(curve.table.positions) - 1)
-        findings.add("AXC-SEAM", *place, message)
+        at = positions.of_table(curve.axis.number, curve.entry, len(curve.table.positions) - 1)
+        findings.add("AXC-SEAM", *at, message)

@@ -22,7 +22,7 @@ from ...measurement.iso230 import Iso230Result, evaluate
 from ...measurement.positioning import Positioning
 from ...model.machine import Machine
 from .curves import CROSS_ENTRY, PER_MILLE, Array, table_name
-from .places import ListPlaces
+from .positions import Positions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -184,7 +184,7 @@ def _gain(deviations: Array, added: Array) -> float:
 
 
 def judge_signs(
-    machine: Machine, measurements: Sequence[tuple[Positioning, str, str]], places: ListPlaces, findings: Findings
+    machine: Machine, measurements: Sequence[tuple[Positioning, str, str]], positions: Positions, findings: Findings
 ) -> list[SignResult]:
     """Note and return what the tables do to measurements, each with the axis that deviates and the one that moved.
 
@@ -197,6 +197,6 @@ def judge_signs(
     for measurement, axis, over in measurements:
         result = sign_of(machine, measurement, axis, over)
         entry = "kw.ssfk.table[i].pos" if result.kind == "leadscrew" else CROSS_ENTRY
-        findings.add(result.code, *places.of_table(machine.axis(axis).number, entry, 0), result.message)
+        findings.add(result.code, *positions.of_table(machine.axis(axis).number, entry, 0), result.message)
         results.append(result)
     return results

@@ -41,7 +41,9 @@ def table_of_c(positions: Sequence[float], values: Sequence[float], modulo: bool
 
 
 def codes(machine: Machine, path: Path | None = None, **evidence) -> list[str]:
-    return [finding.code for finding in judge(machine, path, **evidence).findings]
+    return [
+        finding.code for finding in judge(machine, None if path is None else read_machine(path), **evidence).findings
+    ]
 
 
 def said(judgement: Judgement, code: str) -> str:
