@@ -13,7 +13,7 @@ from ..engine.motion import Array
 from ..measurement.iso230 import SYMBOLS, evaluate
 from ..measurement.positioning import Positioning
 from ..model.machine import Cross, Leadscrew
-from ..plot.iso230 import DOWN, UP
+from ..plot.style import DOWN, UP
 from .creation import (
     LEFT_OUT,
     MEASURED,

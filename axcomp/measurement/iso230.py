@@ -157,7 +157,7 @@ class Iso230Result:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
-        from ..plot.iso230 import plot
+        from .picture import plot
 
         return plot(self, ax)
 

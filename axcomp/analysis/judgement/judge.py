@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
+from ...engine.motion import Array
 from ...lists.findings import Finding, Findings
 from ...measurement.positioning import Positioning
 from ...model.machine import Machine
 from .coverage import Coverage, judge_coverage
-from .curves import Array
 from .dynamics import Demand, DynamicsResult, judge_dynamics
 from .limits import LargestCorrection, judge_limits
 from .outliers import judge_outliers
