@@ -49,7 +49,7 @@ class Iso230Result:
     axis, source : str
         Which axis, and from which file.
     position_unit, unit : str
-        ``mm`` and ``µm``, or ``deg`` and ``0.001°``.
+        ``mm`` and ``µm``, or ``deg`` and ``″``.
     positions : array, shape (m,)
         Targets, ascending, mm or °.
     count_up, count_down : array of int, shape (m,)

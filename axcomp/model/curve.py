@@ -75,7 +75,7 @@ class Curve:
             raise ValueError(f"{name} holds a number that is not finite")
         if any(a >= b for a, b in pairwise(self.x)):
             raise ValueError(f"the points of {name} do not ascend")
-        if self.period is not None and not 0.0 < self.span * (1.0 - ROUNDING) <= self.period < math.inf:
+        if self.period is not None and not max(self.span * (1.0 - ROUNDING), 0.0) < self.period < math.inf:
             raise ValueError(f"{name} is longer than the {self.period:g} {self.over.unit} after which it repeats")
 
     def __repr__(self) -> str:

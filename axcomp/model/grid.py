@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from .delaunay import Triangulation, triangulate
 from .quantity import Quantity
@@ -54,29 +54,11 @@ class Grid:
         # A side of one point is constant along it.
         return below if share_up == 0.0 else below + share_up * (_between(self.values[j + 1], i, share) - below)
 
-    def mapped(self, change: Callable[[float], float]) -> Grid:
-        """Return the grid with all values changed."""
-        return replace(self, values=tuple(tuple(change(value) for value in row) for row in self.values))
-
-    def shown(self) -> Grid:
-        """Return the grid in the unit that small values are shown in."""
-        return replace(self.mapped(lambda value: self.of.factor * value), of=self.of.scaled())
-
     def minus(self, other: Grid) -> Grid:
         """Return the difference, on the points of both."""
         x, y = (tuple(sorted({*mine, *theirs})) for mine, theirs in ((self.x, other.x), (self.y, other.y)))
         values = tuple(tuple(self.at(u, v) - other.at(u, v) for u in x) for v in y)
         return replace(self, x=x, y=y, values=values, of=self.of.changed())
-
-
-class _Triangle(NamedTuple):
-    """A place, the way from it to two others, and twice their area; values at all three."""
-
-    x: float
-    y: float
-    sides: tuple[float, float, float, float]
-    area: float
-    values: tuple[float, float, float]
 
 
 @dataclass(frozen=True, repr=False)
@@ -126,24 +108,16 @@ class Scatter:
             raise ValueError("there are no three places that are not in a line")
         return found
 
-    @cached_property
-    def _triangles(self) -> list[_Triangle]:
-        found = []
-        for corners in self._triangulation.triangles:
-            (ax, ay), (bx, by), (cx, cy) = (self.places[k] for k in corners)
-            sides = (bx - ax, by - ay, cx - ax, cy - ay)
-            a, b, c = (self.values[k] for k in corners)
-            found.append(_Triangle(ax, ay, sides, sides[0] * sides[3] - sides[1] * sides[2], (a, b, c)))
-        return found
-
     def at(self, x: float, y: float) -> float:
         """Return the value at a place."""
         if self._grid is not None:
             return self._grid.at(x, y)
-        for triangle in self._triangles:
-            (bx, by, cx, cy), (a, b, c) = triangle.sides, triangle.values
-            px, py = x - triangle.x, y - triangle.y
-            beta, gamma = (px * cy - py * cx) / triangle.area, (bx * py - by * px) / triangle.area
+        for corners in self._triangulation.triangles:
+            (ax, ay), (bx, by), (cx, cy) = (self.places[k] for k in corners)
+            a, b, c = (self.values[k] for k in corners)
+            area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+            beta = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
+            gamma = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
             if beta >= ON_EDGE and gamma >= ON_EDGE and beta + gamma <= 1.0 - ON_EDGE:
                 return a + beta * (b - a) + gamma * (c - a)
         nearest = (self._on_edge(edge, x, y) for edge in self._triangulation.edges)
@@ -156,10 +130,6 @@ class Scatter:
         share = min(max((px * ex + py * ey) / (ex * ex + ey * ey), 0.0), 1.0)
         a, b = (self.values[k] for k in edge)
         return (px - share * ex) ** 2 + (py - share * ey) ** 2, a + share * (b - a)
-
-    def shown(self) -> Scatter:
-        """Return the values in the unit that small ones are shown in."""
-        return replace(self, values=tuple(self.of.factor * value for value in self.values), of=self.of.scaled())
 
 
 def _cell(points: Sequence[float], place: float) -> tuple[int, float]:

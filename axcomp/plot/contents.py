@@ -10,7 +10,7 @@ from ..model.machine import Machine
 from ..model.tables import SPEED, Tables, tables_of
 from .content import Content, Subject
 from .curves import Curves
-from .maps import Map
+from .maps import Layer, Map
 
 SAMPLES = 61
 """Places along each side of a map that is given by scattered tests."""
@@ -42,5 +42,5 @@ def _content(tables: Tables) -> Content:
     else:
         points = np.array(first.places)
         x, y = (np.union1d(side, np.linspace(side.min(), side.max(), SAMPLES)) for side in points.T)
-    layers = tuple(one.shown() for one in tables.tables if isinstance(one, Grid | Scatter))
+    layers = tuple(Layer.shown(one) for one in tables.tables if isinstance(one, Grid | Scatter))
     return Map(subject, layers, x, y, points, first.note)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
+from ..model.grid import Grid, Scatter
 from ..model.quantity import Quantity
 from .content import Content, NotComparableError, Records, Subject, span, spread
 from .curves import Array
@@ -26,46 +28,36 @@ FLAT, FLAT_SHARE = 0.02, 0.1
 """Values below this share of the largest are 0; where so many of them are, a contour along 0 would be noise."""
 
 
-class Surface(Protocol):
-    """Values over two quantities: a ``Grid``, a ``Scatter`` or whatever else has a value at every place."""
-
-    @property
-    def label(self) -> str:
-        """Tells several in one picture apart."""
-
-    @property
-    def over(self) -> tuple[Quantity, Quantity]:
-        """Across and upwards."""
-
-    @property
-    def of(self) -> Quantity:
-        """Of the values."""
-
-    def at(self, x: float, y: float) -> float:
-        """Return the value at a place."""
-
-
 @dataclass(frozen=True, eq=False)
-class Difference:
-    """What the second of two surfaces has more than the first one."""
+class Layer:
+    """One map: whatever has a value at every place, such as a ``Grid`` or a ``Scatter``.
 
-    one: Surface
-    other: Surface
+    Attributes
+    ----------
+    label : str
+        Tells several in one picture apart.
+    over : two Quantity
+        Across and upwards.
+    of : Quantity
+        Of the values.
+    at : function of (x, y)
+        The value at a place.
+    """
+
     label: str
+    over: tuple[Quantity, Quantity]
+    of: Quantity
+    at: Callable[[float, float], float]
 
-    @property
-    def over(self) -> tuple[Quantity, Quantity]:
-        """Across and upwards."""
-        return self.one.over
+    @classmethod
+    def shown(cls, table: Grid | Scatter) -> Layer:
+        """Return a table in the unit that it is shown in."""
+        return cls(table.label, table.over, table.of.scaled(), lambda x, y: table.of.factor * table.at(x, y))
 
-    @property
-    def of(self) -> Quantity:
-        """Of the values."""
-        return self.one.of.changed()
-
-    def at(self, x: float, y: float) -> float:
-        """Return the value at a place."""
-        return self.other.at(x, y) - self.one.at(x, y)
+    def minus(self, other: Layer) -> Layer:
+        """Return the difference."""
+        difference = replace(self, of=self.of.changed(), at=lambda x, y: self.at(x, y) - other.at(x, y))
+        return replace(difference, label=self.label or other.label)
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +68,7 @@ class Map:
     ----------
     subject : Subject
         What they are of.
-    layers : tuple of Surface
+    layers : tuple of Layer
         At least one, all over and of the same quantities, in the unit they are shown in.
     across, up : ndarray, shape (nx,) and (ny,)
         The grid that is drawn and listed, ascending.
@@ -87,7 +79,7 @@ class Map:
     """
 
     subject: Subject
-    layers: tuple[Surface, ...]
+    layers: tuple[Layer, ...]
     across: Array
     up: Array
     points: Array
@@ -180,7 +172,7 @@ class Map:
         )
         return replace(
             self,
-            layers=tuple(Difference(a, b, a.label or b.label) for a, b in zip(mine, theirs, strict=True)),
+            layers=tuple(b.minus(a) for a, b in zip(mine, theirs, strict=True)),
             across=np.union1d(self.across, other.across),
             up=np.union1d(self.up, other.up),
             points=np.empty((0, 2)),

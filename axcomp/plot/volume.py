@@ -5,8 +5,7 @@ What is drawn comes from the kernel's interpolation and model, so it is what the
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from .bars import Bars
 from .content import Content, Subject
 from .curves import Array, Curves
 from .field import Field
-from .maps import Map
+from .maps import Layer, Map
 
 SAMPLES = 41
 """Places along each side of a map."""
@@ -167,41 +166,24 @@ def _curves(
     return Curves(subject, tuple(lines), zero_if_absent=True)
 
 
-@dataclass(frozen=True, eq=False)
-class _Error:
-    """One error over two axes, the others where they are in the middle of their ranges; as the kernel interpolates."""
-
-    model: TcpModel
-    name: str
-    letters: tuple[str, str]
-    over: tuple[Quantity, Quantity]
-    middle: Mapping[str, float]
-    label: str = ""
-
-    @property
-    def of(self) -> Quantity:
-        """The error in the unit it is shown in."""
-        return _error(self.name, self.name).scaled()
-
-    def at(self, x: float, y: float) -> float:
-        """Return the error at a place."""
-        place = np.zeros((1, len(LETTERS)))
-        for letter, position in (*self.middle.items(), *zip(self.letters, (x, y), strict=True)):
-            place[0, LETTERS.index(letter)] = position
-        return _error(self.name).factor * float(self.model.known_errors(place)[0, ERRORS.index(self.name)])
-
-
 def _map(volumetric: Volumetric, model: TcpModel, table: ErrorTable, names: dict[str, str]) -> Map:
     """Return one error over its first two axes, the others in the middle of their ranges."""
     first, second, *others = list(table.arguments)
     columns = {argument: [node[place] for node in table.nodes] for place, argument in enumerate(table.arguments)}
     middle = {argument: 0.5 * (min(columns[argument]) + max(columns[argument])) for argument in others}
-    over = (_position(first, names), _position(second, names))
+    over, of = (_position(first, names), _position(second, names)), _error(table.name, table.name)
+
+    def at(x: float, y: float) -> float:
+        place = np.zeros((1, len(LETTERS)))
+        for argument, position in (*middle.items(), (first, x), (second, y)):
+            place[0, LETTERS.index(argument)] = position
+        return of.factor * float(model.known_errors(place)[0, ERRORS.index(table.name)])
+
     x, y = (np.linspace(min(columns[argument]), max(columns[argument]), SAMPLES) for argument in (first, second))
     at_middle = ", ".join(f"{names.get(argument, argument)} = {position:g}" for argument, position in middle.items())
     return Map(
         Subject(str(volumetric.index), "volumetric", table.name),
-        (_Error(model, table.name, (first, second), over, middle),),
+        (Layer("", over, of.scaled(), at),),
         x,
         y,
         np.array(list(zip(columns[first], columns[second], strict=True))) if not others else np.empty((0, 2)),

@@ -185,14 +185,14 @@ def _evaluation(result: Iso230Result) -> str:
         (f"{position:g}", *(number(float(c[i]), 0 if n[0] == "n" else 2) for n, c in zip(names, columns, strict=True)))
         for i, position in enumerate(result.positions)
     ]
-    unit = "mm" if result.position_unit == "mm" else "°"
     notes = "".join(f'<p class="note">{escape(note)}</p>' for note in result.notes)
     axis = f", axis {result.axis}" if result.axis else ""
     title = f"{Path(result.source).name}{axis}"
+    target = f"target [{symbol(result.position_unit)}]"
     return f"""<section><h3>{escape(title)}</h3>
 {_drawn(title, result.plot, heading=False)}
 {table(Records(("ISO 230-2:2014", result.unit), figures))}{notes}
-<details><summary>Targets</summary>{_wide(Records((f"target [{unit}]", *names), rows))}</details></section>"""
+<details><summary>Targets</summary>{_wide(Records((target, *names), rows))}</details></section>"""
 
 
 def _budget(report: Report) -> Chapter | None:

@@ -46,6 +46,10 @@ def test_a_turn_that_ends_with_another_value_begins_with_its_first_one() -> None
     assert jumping.at([0.0, 360.0, 359.0, -1.0, 720.0]) == pytest.approx([1, 1, 2 + 269 / 90, 2 + 269 / 90, 1])
 
 
+def test_a_single_point_that_repeats_is_a_constant() -> None:
+    assert curve([30], [2], period=360.0).at([0.0, 30.0, 200.0, 900.0]) == [2.0] * 4
+
+
 def test_slopes_are_those_of_scipy() -> None:
     one = curve([0, 1, 4, 10], [0.0, 2.0, -1.0, 3.0])
     slopes = make_interp_spline(one.x, one.y, k=1).derivative()([0.5, 2.0, 7.0])
@@ -132,7 +136,6 @@ def test_other_points_are_read_off_the_curve(one) -> None:
         ((0, np.inf), (0, 0), None, "the table holds a number that is not finite"),
         ((0, 0), (0, 1), None, "the points of the table do not ascend"),
         ((0, 400), (0, 1), 360.0, "the table is longer than the 360 mm after which it repeats"),
-        ((0,), (0,), 360.0, "the table is longer than"),
     ],
 )
 def test_what_is_no_curve_is_refused_in_a_sentence(x, y, period, because) -> None:

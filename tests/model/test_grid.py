@@ -46,6 +46,16 @@ def test_a_grid_is_bilinear_with_its_edges_held(grid, places) -> None:
     assert [grid.at(x, y) for x, y in places] == pytest.approx([_scipy(grid, x, y) for x, y in places], abs=1e-9)
 
 
+def test_interpolation_on_equal_distances_is_that_of_scipy() -> None:
+    random = np.random.default_rng(5)
+    points, values = (5.0 + 0.5 * np.arange(4), -3.0 + 2.0 * np.arange(7)), random.normal(size=(4, 7))
+    grid = Grid(tuple(points[1].tolist()), tuple(points[0].tolist()), tuple(map(tuple, values.tolist())), OVER, OF)
+    x, y = random.uniform(-3.0, 9.0, 50), random.uniform(5.0, 6.5, 50)
+    found = [grid.at(u, v) for u, v in zip(x, y, strict=True)]
+    assert found == pytest.approx(RegularGridInterpolator(points, values)(np.column_stack([y, x])))
+    assert grid.at(-99.0, 99.0) == values[-1, 0]
+
+
 @given(grids(), grids(), PLACES)
 @settings(deadline=None)
 def test_a_difference_is_that_of_the_values_everywhere(one, other, places) -> None:
