@@ -48,6 +48,8 @@ Sides = tuple[Curve, Curve]
 
 def _sides(positions: Array, values: Array, deviating: str, period: float | None = None) -> Sides:
     """Return errors (2, m), in µm or ″, of an axis that counts in ``deviating``; outside the end values hold."""
+    if period is not None and np.ptp(positions) > period + _SPAN_TOLERANCE:
+        raise CannotCreateError(f"a modulo table spans {period:g}° at most, not {np.ptp(positions):g}°")
     over, of = Quantity("position", "mm or °"), Quantity("error", shown(deviating).unit)
     x = tuple(positions.tolist())
     up, down = (Curve(x, tuple(side), over, of, period) for side in values.tolist())
@@ -86,11 +88,8 @@ def create_leadscrew(measurement: Positioning, target: TargetList, options: Opti
         positions, means = _means(readings, both)
         if period is not None:
             means = _closed(positions, means, period)
-        if period is not None and np.ptp(positions) > period + _SPAN_TOLERANCE:
-            raise CannotCreateError(f"a modulo table spans {period:g}° at most, not {np.ptp(positions):g}°")
-        return _table(
-            _sides(positions, means, measurement.deviating, period), old, capacity, options.bound, measurement
-        )
+        measured = _sides(positions, means, measurement.deviating, period)
+        return _table(measured, old, capacity, options.bound, measurement)
 
     table = make(measurement)
     up, down = (tuple(rounded(np.array(side.y) / factor).tolist()) for side in table)
