@@ -136,6 +136,13 @@ def _grid(x: Array, y: Array, values: Array, unit: str) -> Grid:
     return Grid(tuple(x.tolist()), tuple(y.tolist()), rows, over, Quantity("deviation", shown(unit).unit))
 
 
+def _errors(plane: Plane, unit: str) -> Grid:
+    """Return the errors that a table of the list removes: its corrections with the other sign."""
+    values = -shown(unit).factor * np.array(plane.corrections)
+    x, y = (np.arange(float(count)) for count in values.shape[::-1])
+    return _grid(plane.start1 + plane.interval1 * x, plane.start2 + plane.interval2 * y, values, unit)
+
+
 def _at(grid: Grid, positions1: Array, positions2: Array) -> Array:
     return np.array([grid.at(x, y) for x, y in zip(positions1.tolist(), positions2.tolist(), strict=True)])
 
@@ -158,16 +165,7 @@ def create_plane(measurement: Flatness, target: TargetList, options: Options | N
         raise CannotCreateError("the list does not say which axes are the masters (kw.crosscomp2.master1_ax_nr, …)")
     before = put_on_top(target, "plane", options)
     factor, unit = shown(measurement.unit)
-    old = None
-    if before is not None:
-        values = -factor * np.array(before.corrections)
-        x, y = (
-            start + interval * np.arange(float(count))
-            for start, interval, count in zip(
-                (before.start1, before.start2), (before.interval1, before.interval2), values.shape[::-1], strict=True
-            )
-        )
-        old = _grid(x, y, values, measurement.unit)
+    old = None if before is None else _errors(before, measurement.unit)
     reserved = options.max_points or target.values.integer("kw.crosscomp2.max_points")
     given = bool(options.max_points) or target.values.given("kw.crosscomp2.max_points")
     capacity = reserved or target.capacity("kw.crosscomp2.max_points")
