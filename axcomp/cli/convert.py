@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, per_mille, recognized, written
+from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, recognized, shown_unit, written
 from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
 from ..convert.table import CannotHoldError, CompensationTable, FormatError
 from ..kinds import KINDS
@@ -55,7 +55,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--over", metavar="AXIS", help="axis of the positions, where the file does not tell it")
     parser.add_argument("--rotary", metavar="AXIS,…", default="", help="rotary axes, where the file does not tell them")
     parser.add_argument(
-        "--within", type=float, metavar="µm", help="choose other points; they may cost this much (rotary: m°)"
+        "--within", type=float, metavar="µm", help="choose other points; they may cost this much (rotary: ″)"
     )
     parser.add_argument("--max-points", type=int, metavar="N", help="points the other control reserves for a table")
     parser.add_argument("--encoder", type=int, choices=(0, 1), default=0, help="measuring system of ENC_COMP (0)")
@@ -159,7 +159,7 @@ def _sentence(one: Compared) -> str:
     points = f"{len(one.before.positions)} points, written {len(one.after.positions)}"
     motion = "positive" if direction > 0 else "negative"
     where = f" at {position:g} {one.before.over_unit} in {motion} motion" if size else ""
-    return f"{one.before.name}: {points}; largest difference {size:.4f} {per_mille(one.before)}{where}"
+    return f"{one.before.name}: {points}; largest difference {size:.4f} {shown_unit(one.before)}{where}"
 
 
 def _figures(one: Compared) -> dict[str, object]:
@@ -170,7 +170,7 @@ def _figures(one: Compared) -> dict[str, object]:
         "points": len(one.before.positions),
         "written_points": len(one.after.positions),
         "largest_difference": one.difference.size,
-        "unit": per_mille(one.before),
+        "unit": shown_unit(one.before),
         "at": one.difference.position,
         "direction": one.difference.direction,
     }

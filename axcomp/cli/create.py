@@ -123,7 +123,8 @@ def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], name: 
     parser.add_argument("--output", type=Path, metavar="FILE", help="write there instead")
     parser.add_argument("--dry-run", action="store_true", help="write nothing")
     unit = "drive unit" if name == "friction" else "µm"
-    parser.add_argument("--bound", type=float, metavar=unit, help="thin, but stay within this of the measured means")
+    within = "thin, but stay within this of the measured means" + (" (rotary axes: ″)" if unit == "µm" else "")
+    parser.add_argument("--bound", type=float, metavar=unit, help=within)
     if name != "crosstalk":
         parser.add_argument("--max-points", type=int, metavar="N", help="let the list reserve so many entries")
     parser.add_argument("--axis", type=int, metavar="N", help="logical axis number of a new list")

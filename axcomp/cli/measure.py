@@ -12,6 +12,7 @@ from ..measurement.columns import MeasurementError
 from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
 from ..measurement.positioning import Positioning, joined, read_positioning
 from ..measurement.uncertainty import Conditions
+from ..model.quantity import symbol
 from .check import STATUS_MAX
 
 _EPILOG = """\
@@ -117,7 +118,7 @@ def _print(result: Iso230Result) -> None:
         ]
         for position, row in zip(result.positions, frame.to_numpy(), strict=True)
     ]
-    header = [f"target [{'mm' if result.position_unit == 'mm' else '°'}]", *map(str, frame)]
+    header = [f"target [{symbol(result.position_unit)}]", *map(str, frame)]
     axis = f", axis {result.axis}" if result.axis else ""
     out.print(table(f"{result.source}{axis}: by target, in {result.unit}", header, rows))
     figures = [

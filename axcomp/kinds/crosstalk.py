@@ -15,16 +15,18 @@ from ..kernel.crosstalk import (
     CrosstalkTable,
 )
 from ..kernel.cycle import LARGEST
-from ..model.machine import Axis, AxisType, Compensation
+from ..model.curve import Curve
+from ..model.delaunay import triangulate
+from ..model.grid import Scatter
+from ..model.machine import Axis, AxisType, Compensation, Machine
+from ..model.quantity import Quantity
 from .compiling import AxisCompiler
-from .delaunay import triangulate
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import (
     AXIS_NUMBER,
     BELOW_MAX,
     DataType,
     Parameter,
-    Quantity,
     Severity,
     activation,
     both,
@@ -33,6 +35,8 @@ from .parameter import (
     smooth_switching,
     twincat,
 )
+from .parameter import Quantity as ListQuantity
+from .shown import ACCELERATION, NEGATIVE, POSITIVE, Range, Table, correction_of, position_of, ranges_of
 from .units import span
 
 PREFIX = "kw.crosstalk."
@@ -53,6 +57,8 @@ _ADAPTATION = tuple(f"{PREFIX}master_pos{i}_ax_nr" for i in (1, 2))
 _LAST_INDEX, _CYCLES, _MANUAL = f"{PREFIX}last_index", f"{PREFIX}n_cycles", f"{PREFIX}manual_activation"
 _NEW_ONLY = (*_TEST_FIELDS.values(), *_LIMITS, _MODE, _MAX_POINTS, _DIRECTIONS, *_ADAPTATION)
 TESTS_MAX = 15
+BEYOND_TESTS = 1.3
+"""How far beyond the acceleration of the tests a curve is shown, where it is held."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +157,7 @@ def _test(field: str, meaning: str, number: str) -> Parameter:
         DataType.SGN64,
         0,
         isg(number),
-        Quantity.POSITION,
+        ListQuantity.POSITION,
         BELOW_MAX,
         index_max=(TESTS_MAX - 1,),
     )
@@ -187,7 +193,7 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
             typos=(f"{_OLD_MASTER}.manual_activation",),
         ),
         *(
-            Parameter(name, meaning, DataType.SGN32, 0, isg(number), Quantity.ACCELERATION, bounds)
+            Parameter(name, meaning, DataType.SGN32, 0, isg(number), ListQuantity.ACCELERATION, bounds)
             for name, meaning, number, bounds in (
                 (_LIMITS[0], "Acceleration of the tests", "00066", "(0, MAX)"),
                 (_LIMITS[1], "Negative acceleration of the tests", "00067", "[MIN, 0)"),
@@ -227,13 +233,13 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
             DataType.SGN32,
             0,
             twincat("00066"),
-            Quantity.ACCELERATION,
+            ListQuantity.ACCELERATION,
             BELOW_MAX,
             index_max=(4,),
         ),
         position(CURVE[1], "Correction of the slave", twincat("00067"), index_max=(4,)),
     )
-    tables = (*_TEST_FIELDS.values(), *CURVE)
+    columns = (*_TEST_FIELDS.values(), *CURVE)
     sizes = (_MAX_POINTS, _LAST_INDEX)
     at_standstill = True
     codes = {
@@ -301,6 +307,66 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
             compiler.curve(table.curve, self.name, compensation.accelerations, compensation.corrections)
         else:
             _compile_tests(compensation, compiler, table)
+
+    def tables(self, compensation: Crosstalk | CrosstalkCurve, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return curves over the acceleration; for both accelerations of the tests, tables over the adaptation axes.
+
+        The values of tests stand in no column of the list: these tables have no ``entry``.
+        """
+        acceleration = Quantity(ACCELERATION, "mm/s²", machine.numbered(compensation.master).name)
+        of = correction_of(axis)
+        if isinstance(compensation, CrosstalkCurve):
+            entry = "kw.compensation.table[i].correction"
+            x, y = compensation.accelerations, compensation.corrections
+            return (Curve(x, y, acceleration, of, label="correction", entry=entry),)
+        high, low = compensation.acceleration, compensation.deceleration
+        motions = (POSITIVE, NEGATIVE) if compensation.velocity_dependent else ("",)
+        tests = (
+            sorted(compensation.tests, key=lambda test: test.position1)
+            if compensation.mode == 2
+            else compensation.tests
+        )
+        columns = {
+            (high, POSITIVE): tuple(test.accelerate_positive for test in tests),
+            (high, NEGATIVE): tuple(test.accelerate_negative for test in tests),
+            (low, POSITIVE): tuple(test.decelerate_positive for test in tests),
+            (low, NEGATIVE): tuple(test.decelerate_negative for test in tests),
+        }
+        if compensation.mode == 1:
+            x = (BEYOND_TESTS * low, low, 0.0, high, BEYOND_TESTS * high)
+            ends = [(columns[low, motion or POSITIVE][0], columns[high, motion or POSITIVE][0]) for motion in motions]
+            return tuple(
+                Curve(x, (down, down, 0.0, up, up), acceleration, of, label=motion or "correction")
+                for motion, (down, up) in zip(motions, ends, strict=True)
+            )
+        note = f"{acceleration.name} of {acceleration.axis}: {high:g} and {low:g} mm/s²"
+        states = [
+            (", ".join(word for word in (f"{limit:+g} mm/s²", motion) if word), columns[limit, motion or POSITIVE])
+            for limit in (high, low)
+            for motion in motions
+        ]
+        over = [
+            position_of(machine.numbered(n))
+            for n in (compensation.adaptation1, compensation.adaptation2)
+            if n is not None
+        ]
+        if compensation.mode == 2:
+            x = tuple(test.position1 for test in tests)
+            return tuple(Curve(x, values, over[0], of, label=label, note=note) for label, values in states)
+        places = tuple((test.position1, test.position2) for test in tests)
+        return tuple(Scatter(places, values, (over[0], over[1]), of, label, note) for label, values in states)
+
+    def ranges(
+        self, compensation: Crosstalk | CrosstalkCurve, tables: tuple[Table, ...], machine: Machine
+    ) -> list[Range]:
+        """Return the range of the tests' accelerations, and those of the adaptation axes."""
+        if isinstance(compensation, CrosstalkCurve):
+            return ranges_of(tables)
+        entry = "kw.compensation.acceleration"
+        over = Quantity(ACCELERATION, "mm/s²", machine.numbered(compensation.master).name)
+        places = ranges_of(tables) if compensation.mode > 1 else []
+        tested = Range(over, compensation.deceleration, compensation.acceleration, entry)
+        return [tested, *(place._replace(entry=entry) for place in places)]
 
     def needs(self, compensation: Crosstalk | CrosstalkCurve, axis: Axis) -> tuple[int, ...]:
         """Return the adaptation axes."""

@@ -7,10 +7,14 @@ from dataclasses import dataclass, replace
 
 from ..kernel.cycle import LARGEST
 from ..kernel.friction import DELAY_LINE, LOOKAHEAD_MAX
-from ..model.machine import Axis, Compensation
+from ..model.curve import Curve
+from ..model.machine import Axis, Compensation, Machine
+from ..model.quantity import Quantity, symbol
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
-from .parameter import BELOW_MAX, DataType, Parameter, Quantity, Severity, activation, both
+from .parameter import BELOW_MAX, DataType, Parameter, Severity, activation, both
+from .parameter import Quantity as ListQuantity
+from .shown import SPEED, Table
 from .units import span
 
 PREFIX = "frict_comp."
@@ -85,7 +89,7 @@ class FrictionKind(Kind[Friction]):
                 DataType.SGN32,
                 0,
                 both("00043"),
-                Quantity.POSITION,
+                ListQuantity.POSITION,
                 "[0, 10]",
                 usable="[0, MAX]",
             ),
@@ -95,7 +99,7 @@ class FrictionKind(Kind[Friction]):
                 DataType.UNS16,
                 0,
                 both("00044"),
-                Quantity.CYCLES,
+                ListQuantity.CYCLES,
                 f"[0, {LOOKAHEAD_MAX}]",
             ),
             Parameter(
@@ -104,7 +108,7 @@ class FrictionKind(Kind[Friction]):
                 DataType.SGN16,
                 1000,
                 both("00045"),
-                Quantity.PER_MILLE,
+                ListQuantity.PER_MILLE,
                 "(MIN, MAX)",
             ),
             Parameter(
@@ -113,17 +117,24 @@ class FrictionKind(Kind[Friction]):
                 DataType.SGN16,
                 0,
                 both("00058"),
-                Quantity.CYCLES,
+                ListQuantity.CYCLES,
                 f"[0, {DELAY_LINE})",
             ),
             # 0 stands in the vendor's own examples; a negative velocity is the table's fault (110591).
             Parameter(
-                VELOCITY, "Velocity", DataType.SGN32, 0, both("00046"), Quantity.VELOCITY, "(0, MAX)", usable=BELOW_MAX
+                VELOCITY,
+                "Velocity",
+                DataType.SGN32,
+                0,
+                both("00046"),
+                ListQuantity.VELOCITY,
+                "(0, MAX)",
+                usable=BELOW_MAX,
             ),
-            Parameter(CURRENT, "Current", DataType.SGN32, 0, both("00047"), Quantity.CURRENT, "(MIN, MAX)"),
+            Parameter(CURRENT, "Current", DataType.SGN32, 0, both("00047"), ListQuantity.CURRENT, "(MIN, MAX)"),
         )
     )
-    tables = (VELOCITY, CURRENT)
+    columns = (VELOCITY, CURRENT)
     sizes = (_COUNT,)
     reserves = _MAX_POINTS
     points_error = 110641
@@ -192,6 +203,22 @@ class FrictionKind(Kind[Friction]):
         table.lookahead = friction.reversal_lookahead
         table.delay = friction.delay_cycles
         table.modulo_range = compiler.modulo_range
+
+    def tables(self, compensation: Friction, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return the scaled current over the speed."""
+        unit = symbol(axis.unit)
+        builds_up = f", builds up over {compensation.position_delay:g} {unit}" if compensation.position_delay else ""
+        return (
+            Curve(
+                compensation.velocities,
+                tuple(compensation.scaling * current for current in compensation.currents),
+                Quantity(SPEED, f"{unit}/s", axis.name),
+                Quantity("added current", "drive units"),
+                label="current",
+                entry=CURRENT,
+                note=f"scaled by {compensation.scaling:g}{builds_up}",
+            ),
+        )
 
     def needs(self, compensation: Friction, axis: Axis) -> tuple[int, ...]:
         """Return nothing: it acts whether referenced or not."""

@@ -13,9 +13,10 @@ from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
 from ..kernel.compensations import CompensationTables
 from ..kernel.record import fields_of
-from ..model.machine import Axis, AxisType, Compensation, ModuloRange
+from ..model.machine import Axis, AxisType, Compensation, Machine, ModuloRange
 from .compiling import AxisCompiler
 from .parameter import Codes, ListKind, Parameter, Value
+from .shown import Range, Table, ranges_of
 from .units import Gear
 
 C = TypeVar("C", bound=Compensation)
@@ -156,7 +157,7 @@ class Kind(ABC, Generic[C]):
         What their names begin with.
     parameters : tuple of Parameter
         All its entries, in the order of the manuals.
-    tables, sizes : tuple of str
+    columns, sizes : tuple of str
         Entries whose presence, or whose value above 0, means that there is a table.
     reserves : str
         Entry that says how many entries the controller keeps free for its table; "" if none does.
@@ -183,7 +184,7 @@ class Kind(ABC, Generic[C]):
     list_kind: ClassVar[ListKind] = ListKind.COMPENSATION
     prefix: ClassVar[str]
     parameters: ClassVar[tuple[Parameter, ...]]
-    tables: ClassVar[tuple[str, ...]] = ()
+    columns: ClassVar[tuple[str, ...]] = ()
     sizes: ClassVar[tuple[str, ...]] = ()
     reserves: ClassVar[str] = ""
     points_error: ClassVar[int] = 0
@@ -209,8 +210,8 @@ class Kind(ABC, Generic[C]):
 
     def is_present(self, values: Values) -> bool:
         """Tell whether a list has entries of a table, or says that there should be some."""
-        tables = any(values.cells(name) for name in self.tables)
-        return tables or any(values.given(name) and values.integer(name) > 0 for name in self.sizes)
+        given = any(values.cells(name) for name in self.columns)
+        return given or any(values.given(name) and values.integer(name) > 0 for name in self.sizes)
 
     @abstractmethod
     def read(self, source: TableReader) -> C | None:
@@ -223,6 +224,14 @@ class Kind(ABC, Generic[C]):
     @abstractmethod
     def compile(self, compensation: C, compiler: AxisCompiler) -> None:
         """Fill the kernel's table; CompileError for a compensation made by hand that cannot be run."""
+
+    @abstractmethod
+    def tables(self, compensation: C, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return what is shown, judged and converted: tables of one class over the same quantities, at least one."""
+
+    def ranges(self, compensation: C, tables: tuple[Table, ...], machine: Machine) -> list[Range]:
+        """Return over what, and from where to where, a compensation has values of its own; ``tables``: its own."""
+        return ranges_of(tables) if tables[0].entry else []
 
     def reserved(self, compensation: C | None, values: Values | None = None) -> int:
         """Return how many entries the controller keeps free for its table, at least 1.

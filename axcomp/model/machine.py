@@ -209,6 +209,10 @@ class Machine:
                 return index
         raise KeyError(number)
 
+    def numbered(self, number: int) -> Axis:
+        """Return the axis with a logical number; KeyError if there is none."""
+        return self.axes[self.index_of(number)]
+
     def axis(self, name: str) -> Axis:
         """Return the axis called ``name``; KeyError if there is none."""
         for axis in self.axes:

@@ -12,12 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from ...kinds.crosstalk import Crosstalk, CrosstalkCurve
+from ...engine.motion import Array
+from ...kinds.shown import ACCELERATION, POSITION
+from ...kinds.tables import tables_of
 from ...lists import Position
 from ...lists.findings import Findings
 from ...model.machine import Axis, AxisType, Machine
+from ...model.quantity import symbol
 from ...model.volumetric import ErrorTable, Volumetric
-from .curves import PLANE_ENTRY, Array, curves_of, grids_of, unit_of
 from .positions import Positions
 from .trajectory import column_of, setpoints
 
@@ -95,23 +97,14 @@ def coverage_of(machine: Machine, trajectory: Mapping[str, Array], positions: Po
     """
     moved = setpoints(trajectory, machine)
     names = {axis.number: axis for axis in machine.axes}
-    seen = set()
-    for curve in curves_of(machine):
-        key = (curve.axis.number, curve.kind)
-        if key in seen or curve.over.number not in moved or curve.table.period is not None:
-            continue
-        seen.add(key)
-        position = positions.of_table(curve.axis.number, curve.entry, 0)
-        name = curve.name.partition(",")[0]
-        yield _positions(name, curve.over, moved[curve.over.number], curve.table.positions, position)
-    for grid in grids_of(machine):
-        position = positions.of_table(grid.axis.number, PLANE_ENTRY, 0, 0)
-        for over, points in ((grid.first, grid.across), (grid.second, grid.up)):
-            if over.number in moved:
-                yield _positions(grid.name, over, moved[over.number], points.tolist(), position)
-    for axis in machine.axes:
-        if axis.crosstalk is not None:
-            yield from _of_crosstalk(axis, axis.crosstalk, names, trajectory, moved, positions)
+    for tables in tables_of(machine):
+        for over, low, high, entry in tables.ranges():
+            position = positions.of_table(tables.axis.number, entry, *([0] * entry.count("[")))
+            axis = machine.axis(over.axis)
+            used = column_of(trajectory, axis, ACCELERATION) if over.name == ACCELERATION else moved.get(axis.number)
+            quantity = {POSITION: axis.name, ACCELERATION: f"the acceleration of {axis.name}"}.get(over.name)
+            if used is not None and quantity is not None:
+                yield _coverage(tables.name, quantity, over.unit, (low, high), used, position)
     for volumetric in machine.volumetric:
         yield from _of_volumetric(volumetric, names, moved, positions)
 
@@ -133,45 +126,11 @@ def judge_coverage(
     return results
 
 
-def _positions(
-    table: str, over: Axis, used: Array, points: tuple[float, ...] | list[float], position: Position
-) -> Coverage:
-    return _coverage(table, over.name, unit_of(over), (points[0], points[-1]), used, position)
-
-
 def _coverage(
     table: str, quantity: str, unit: str, held: tuple[float, float], used: Array, position: Position
 ) -> Coverage:
     outside = float(np.mean((used < held[0] - TOLERANCE) | (used > held[1] + TOLERANCE)))
     return Coverage(table, quantity, unit, held, (float(used.min()), float(used.max())), outside, position)
-
-
-def _of_crosstalk(
-    axis: Axis,
-    crosstalk: Crosstalk | CrosstalkCurve,
-    names: dict[int, Axis],
-    trajectory: Mapping[str, Array],
-    moved: dict[int, Array],
-    positions: Positions,
-) -> Iterator[Coverage]:
-    name = f"the crosstalk table of {axis.name}"
-    master = names[crosstalk.master]
-    accelerations = column_of(trajectory, master, "acceleration")
-    if isinstance(crosstalk, CrosstalkCurve):
-        held = (crosstalk.accelerations[0], crosstalk.accelerations[-1])
-        position = positions.of_table(axis.number, "kw.crosstalk.table[i].correction", 0)
-    else:
-        held = (crosstalk.deceleration, crosstalk.acceleration)
-        position = positions.of_table(axis.number, "kw.crosstalk.acceleration")
-    if accelerations is not None:
-        yield _coverage(name, f"the acceleration of {master.name}", "mm/s²", held, accelerations, position)
-    if isinstance(crosstalk, CrosstalkCurve):
-        return
-    adaptations = ((crosstalk.adaptation1, "position1"), (crosstalk.adaptation2, "position2"))
-    for number, field in adaptations[: crosstalk.mode - 1]:
-        if number is not None and number in moved:
-            points = sorted(getattr(test, field) for test in crosstalk.tests)
-            yield _positions(name, names[number], moved[number], points, position)
 
 
 def _of_volumetric(
@@ -189,7 +148,7 @@ def _of_volumetric(
         offset = volumetric.offsets["XYZABC".index(letter)] * (1.0 if letter in "XYZ" else 180.0 / np.pi)
         errors = " ".join(chain((table.name for table in tables[:3]), ["…"] if len(tables) > 3 else []))
         name = f"volumetric compensation {volumetric.index} ({errors})"
-        yield _positions(name, axis, moved[number] + offset, held, position)
+        yield _coverage(name, axis.name, symbol(axis.unit), held, moved[number] + offset, position)
 
 
 def _range(table: ErrorTable, letter: str) -> tuple[float, float]:

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ...engine.motion import Array
 from ...lists import Finding, Reading
 from ...lists.findings import Findings
 from ...measurement.positioning import Positioning
 from ...model.machine import Machine
 from .coverage import Coverage, judge_coverage
-from .curves import Array
 from .dynamics import Demand, DynamicsResult, judge_dynamics
 from .limits import LargestCorrection, judge_limits
 from .outliers import judge_outliers

@@ -81,7 +81,7 @@ def test_interchanged_directions_are_named() -> None:
 def test_a_measurement_with_the_compensation_on_is_not_taken_for_an_inverted_table() -> None:
     table = tables_of(example(), "Y", "leadscrew")[0]
     raw = measured("Y")
-    on = raw.with_deviations(raw.deviations + 1e3 * table.at(raw.targets))
+    on = raw.with_deviations(raw.deviations + 1e3 * np.array(table.at(raw.targets)))
     message = said(judge(example(), measurements=[(on, "Y", "Y")]), "AXC-SIGN-NO-HELP")
     assert "was the compensation on" in message
 
