@@ -296,6 +296,7 @@ def _variable(
         axis,
         declaration.field,
         volumetric,
+        declaration.name,
     )
 
 

@@ -316,7 +316,7 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
         acceleration = Quantity(ACCELERATION, "mm/s²", machine.numbered(compensation.master).name)
         of = correction_of(axis)
         if isinstance(compensation, CrosstalkCurve):
-            entry = "kw.compensation.table[i].correction"
+            entry = CURVE[1]
             x, y = compensation.accelerations, compensation.corrections
             return (Curve(x, y, acceleration, of, label="correction", entry=entry),)
         high, low = compensation.acceleration, compensation.deceleration
@@ -362,7 +362,7 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
         """Return the range of the tests' accelerations, and those of the adaptation axes."""
         if isinstance(compensation, CrosstalkCurve):
             return ranges_of(tables)
-        entry = "kw.compensation.acceleration"
+        entry = _LIMITS[0]
         over = Quantity(ACCELERATION, "mm/s²", machine.numbered(compensation.master).name)
         places = ranges_of(tables) if compensation.mode > 1 else []
         tested = Range(over, compensation.deceleration, compensation.acceleration, entry)

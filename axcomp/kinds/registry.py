@@ -14,6 +14,8 @@ from .kind import KIND_NAMES, Kind
 KINDS: dict[str, Kind[Any]] = {name: import_module(f".{name}", __package__).KIND for name in KIND_NAMES}
 """Name → kind, in the order of a cycle."""
 
+Compensation.arrange(KIND_NAMES)
+
 
 def kind_of(compensation: Compensation) -> Kind[Any]:
     """Return the kind of a compensation."""

@@ -105,7 +105,7 @@ def test_whatever_the_inputs_no_output_is_not_finite(machine: Machine, seed: int
 def masters_of(axis: Axis) -> set[int]:
     """Logical numbers of the axes whose motion or reference an axis' outputs depend on."""
     numbers = {axis.number}
-    for _, compensation in axis.compensations():
+    for compensation in axis.compensations:
         for field in ("master", "master1", "master2", "adaptation1", "adaptation2"):
             number = getattr(compensation, field, None)
             if number is not None:
@@ -201,7 +201,7 @@ def test_whatever_is_off_does_not_correct(machine: Machine, seed: int) -> None:
 def test_no_correction_is_larger_than_the_largest_value_of_its_table(machine: Machine, seed: int) -> None:
     run = drive(machine, anything(machine, seed))
     for axis in machine.axes:
-        for kind, compensation in axis.compensations():
+        for kind, compensation in ((one.kind, one) for one in axis.compensations):
             output = "current" if kind == "friction" else f"{kind}_correction"
             bound = max(abs(value) for value in values_of(compensation))
             assert np.abs(run[f"{axis.name}.{output}"]).max() <= bound * (1 + 1e-6) + 1e-12

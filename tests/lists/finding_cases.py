@@ -215,6 +215,23 @@ CASES = [
         "getriebe[0].wegaufn",
     ),
     machine(
+        "AXC-GRADIENT",
+        {
+            "hochlauf.lis": start_up(axes=MDS),
+            "achsmd1.lis": axis_list(1, "lr_param.temp_comp 1\nlr_param.temp_comp_coefficient 1001\n"),
+        },
+        3,
+        "lr_param.temp_comp_coefficient",
+        "temperature",
+    ),
+    machine(
+        "AXC-BACKLASH",
+        {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, "lr_param.anwahl_losekomp 1\n")},
+        2,
+        "lr_param.anwahl_losekomp",
+        "backlash",
+    ),
+    machine(
         "110386",
         {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, "getriebe[0].wegaufz 0\n")},
         2,

@@ -35,7 +35,7 @@ def texts(kind: ListKind) -> st.SearchStrategy[str]:
 def check(reading: Reading) -> None:
     """Check what always holds of a reading: it compiles, its axes are told apart, findings are sentences."""
     machine, findings = reading.machine, reading.findings
-    if any(True for axis in machine.axes for _ in axis.compensations()):
+    if any(axis.compensations for axis in machine.axes):
         compile_tables(machine)
     assert len(machine.axes) <= AXES_MAX
     assert len({axis.number for axis in machine.axes}) == len({axis.name for axis in machine.axes}) == len(machine.axes)

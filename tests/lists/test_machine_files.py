@@ -32,7 +32,7 @@ def numbers(reading: Reading) -> list[int]:
 
 
 def acting(reading: Reading) -> dict[int, list[str]]:
-    return {axis.number: [kind for kind, _ in axis.compensations()] for axis in reading.machine.axes}
+    return {axis.number: [one.kind for one in axis.compensations] for axis in reading.machine.axes}
 
 
 @pytest.mark.parametrize("path", ["", "hochlauf.lis"])

@@ -15,7 +15,7 @@ from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.engine.engine import Engine
 from axcomp.kinds import KINDS
 from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
-from axcomp.kinds.parameter import Severity
+from axcomp.kinds.parameter import ListKind, Severity
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
 from axcomp.plant.simulated import load_plant
@@ -53,7 +53,8 @@ def test_there_is_nothing_to_say_about_measured_lists(name: str) -> None:
 
 def test_three_axis_has_all_kinds_and_the_tables_it_promises() -> None:
     x, y, z = read_machine(models() / "three_axis").machine.axes
-    assert {kind for axis in (x, y, z) for kind, _ in axis.compensations()} == set(KINDS)
+    in_lists = {name for name, kind in KINDS.items() if kind.list_kind is ListKind.COMPENSATION}
+    assert {kind for axis in (x, y, z) for kind in axis.kinds} == in_lists
     assert isinstance(y.crosstalk, Crosstalk)
     assert isinstance(z.crosstalk, CrosstalkCurve)
     assert x.leadscrew is not None
@@ -185,7 +186,7 @@ def test_the_manuals_examples_get_the_findings_they_deserve() -> None:
     assert unknown == {9, 10, 11, 12, 15, 16, 17, 18, 19, 20}
     errors = {Path(finding.file).name: finding.code for finding in findings if finding.severity is Severity.ERROR}
     assert errors == {"achskw2.lis": "AXC-ORDER", "achskw3.lis": "70245"}
-    acting = {axis.name: [kind for kind, _ in axis.compensations()] for axis in machine.axes}
+    acting = {axis.name: [one.kind for one in axis.compensations] for axis in machine.axes}
     assert acting == {
         "X": ["plane"],
         "Y-ACHSE": [],

@@ -230,7 +230,7 @@ def budget_of(
         columns.pop("tool_length", None)
     columns = completed(columns, {v.name for v in with_causality(engine.variables, "input")}, cycle_time)
     result = engine.run(columns)
-    names: Names = {(v.axis, v.field): v for v in engine.variables}
+    names: Names = {(v.axis, v.quantity): v for v in engine.variables}
     at = np.unique(np.linspace(0, len(result) - 1, min(max(points, 2), len(result))).round().astype(np.int64))
     found: list[Contribution] = []
     totals, units, currents, setpoints = {}, {}, {}, {}
@@ -262,7 +262,7 @@ def _of_kinds(axis: Axis, place: int, names: Names, result: Result) -> Iterator[
     """Yield what the axis compensations of one axis contribute."""
     factor, _ = shown(axis.unit)
     for kind in KINDS:
-        variable = names.get((place, f"{kind}_correction"))
+        variable = names.get((place, f"{kind}.correction"))
         if variable is not None and result[variable.name].any():
             yield Contribution(axis.name, kind, np.arange(len(result)), factor * result[variable.name])
 
