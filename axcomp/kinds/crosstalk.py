@@ -239,6 +239,7 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
         ),
         position(CURVE[1], "Correction of the slave", twincat("00067"), index_max=(4,)),
     )
+    values = ("corrections", "tests", *list(_TEST_FIELDS)[2:])
     columns = (*_TEST_FIELDS.values(), *CURVE)
     sizes = (_MAX_POINTS, _LAST_INDEX)
     at_standstill = True

@@ -134,6 +134,7 @@ class FrictionKind(Kind[Friction]):
             Parameter(CURRENT, "Current", DataType.SGN32, 0, both("00047"), ListQuantity.CURRENT, "(MIN, MAX)"),
         )
     )
+    values = ("currents",)
     columns = (VELOCITY, CURRENT)
     sizes = (_COUNT,)
     reserves = _MAX_POINTS

@@ -82,6 +82,7 @@ class TemperatureKind(Kind[Temperature]):
             usable="(0, 20]",
         ),
     )
+    values = ("offset", "coefficient")
     inputs = (
         KindInput("offset", "offset", "{}", "Offset of the temperature compensation"),
         KindInput("coefficient", "coefficient", "", "Growth by temperature, mm per mm or deg per deg"),
