@@ -55,7 +55,7 @@ def needed_files(slave: Path, package: Path) -> list[Path]:
     waiting: list[tuple[Path, Module, bool]] = [(slave, (), False)]
     while waiting:
         path, module, is_package = waiting.pop()
-        for base in _imports(path, module if is_package else module[:-1], package.name):
+        for base in _imports(path, module if is_package else module[:-1], package):
             for end in range(len(base) + 1):
                 needed = _file_of(package, base[:end])
                 if needed is not None and needed not in found:
@@ -73,14 +73,17 @@ def _file_of(package: Path, module: Module) -> Path | None:
     return None
 
 
-def _imports(path: Path, parent: Module, package_name: str) -> Iterator[Module]:
-    """Yield what a file imports from the package; ``parent``: the package it is in."""
+def _imports(path: Path, parent: Module, package: Path) -> Iterator[Module]:
+    """Yield what a file imports from the package; ``parent``: the package it is in.
+
+    ``import_module(…, __package__)`` of a name that is made while it runs stands for every module of ``parent``.
+    """
     for node in _executed(ast.parse(path.read_bytes())):
         if isinstance(node, ast.ImportFrom):
             named = tuple(node.module.split(".")) if node.module else ()
             if node.level:
                 base = parent[: len(parent) - node.level + 1] + named
-            elif named[0] == package_name:
+            elif named[0] == package.name:
                 base = named[1:]
             else:
                 continue
@@ -88,8 +91,12 @@ def _imports(path: Path, parent: Module, package_name: str) -> Iterator[Module]:
         elif isinstance(node, ast.Import):
             for alias in node.names:
                 first, *rest = alias.name.split(".")
-                if first == package_name:
+                if first == package.name:
                     yield tuple(rest)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "import_module":
+            if ast.unparse(node.args[-1]) != "__package__":
+                continue
+            yield from ((*parent, file.stem) for file in package.joinpath(*parent).glob("*.py"))
 
 
 def _executed(node: ast.AST) -> Iterator[ast.AST]:
