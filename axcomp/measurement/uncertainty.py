@@ -5,7 +5,7 @@ distributed between them: a range R contributes ``U = 2 · R / √12 = R/√3`` 
 
     U_DEVICE       = device · L                           calibration of the instrument, stated with k = 2
     U_MISALIGNMENT = misalignment² / (2 √3 L)             the cosine error is between 0 and misalignment² / 2L
-    U_M            = α · L · temperature_range / √3       the temperature of the machine is known within this range
+    U_M            = α · L · temperature_range / √3       how warm the machine is, is known within this range
     U_E            = α_range · L · |ΔT| / √3              α is known within this range, ΔT from 20 °C
     U_EVE          = drift / √3                           range of the readings of an axis at rest during the test
 
@@ -42,7 +42,7 @@ class Conditions:
     misalignment : float
         How far instrument and axis may be out of line over the travel, mm.
     temperature_range : float
-        Range within which the temperature of the machine is known, K.
+        Range within which it is known how warm the machine is, K.
     temperature_offset : float
         Temperature of the machine minus 20 °C, K.
     expansion : float
