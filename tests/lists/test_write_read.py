@@ -9,9 +9,7 @@ import pytest
 from hypothesis import given, settings
 from strategies import machines
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import ListError, Severity, format_compensation_list, read_machine, write_machine
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import compile_tables

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...engine.motion import Array
-from ...kinds.tables import Tables, tables_of
+from ...kinds import Tables, tables_of
 from ...lists.findings import Findings
 from ...model.curve import Curve
 from ...model.grid import Grid
