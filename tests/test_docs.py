@@ -45,10 +45,11 @@ def test_the_glossary_says_each_word_once_in_order_and_its_classes_exist() -> No
     assert sorted(set(words)) == sorted(words)
     for section in sections:
         assert section == sorted(section, key=str.lower)
-    classes = re.findall(r"\| `([\w.]+)\.(\w+)` \|", page)
+    classes = re.findall(r"\| `(\w+)\.(\w+)` \|", page)
     assert len(classes) > 35
-    for module, name in classes:
-        assert isinstance(getattr(import_module(f"axcomp.{module}"), name), type), f"{module}.{name}"
+    for room, name in classes:
+        files = (ROOT / "axcomp" / room).rglob("*.py")
+        assert any(re.search(rf"^class {name}\b", path.read_text("utf-8"), re.MULTILINE) for path in files), name
 
 
 def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:

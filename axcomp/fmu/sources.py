@@ -11,6 +11,9 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+LOADS_BY_NAME = b'import_module(f".{'
+"""Stands in a module that imports others of its package by names that only the program knows: all are needed."""
+
 Module = tuple[str, ...]
 """Dotted name below the package; () is the package itself."""
 
@@ -55,7 +58,11 @@ def needed_files(slave: Path, package: Path) -> list[Path]:
     waiting: list[tuple[Path, Module, bool]] = [(slave, (), False)]
     while waiting:
         path, module, is_package = waiting.pop()
-        for base in _imports(path, module if is_package else module[:-1], package):
+        parent = module if is_package else module[:-1]
+        by_name = (
+            [(*parent, one.stem) for one in path.parent.glob("*.py")] if LOADS_BY_NAME in path.read_bytes() else []
+        )
+        for base in (*_imports(path, parent, package.name), *by_name):
             for end in range(len(base) + 1):
                 needed = _file_of(package, base[:end])
                 if needed is not None and needed not in found:
@@ -73,17 +80,14 @@ def _file_of(package: Path, module: Module) -> Path | None:
     return None
 
 
-def _imports(path: Path, parent: Module, package: Path) -> Iterator[Module]:
-    """Yield what a file imports from the package; ``parent``: the package it is in.
-
-    ``import_module(…, __package__)`` of a name that is made while it runs stands for every module of ``parent``.
-    """
+def _imports(path: Path, parent: Module, package_name: str) -> Iterator[Module]:
+    """Yield what a file imports from the package; ``parent``: the package it is in."""
     for node in _executed(ast.parse(path.read_bytes())):
         if isinstance(node, ast.ImportFrom):
             named = tuple(node.module.split(".")) if node.module else ()
             if node.level:
                 base = parent[: len(parent) - node.level + 1] + named
-            elif named[0] == package.name:
+            elif named[0] == package_name:
                 base = named[1:]
             else:
                 continue
@@ -91,12 +95,8 @@ def _imports(path: Path, parent: Module, package: Path) -> Iterator[Module]:
         elif isinstance(node, ast.Import):
             for alias in node.names:
                 first, *rest = alias.name.split(".")
-                if first == package.name:
+                if first == package_name:
                     yield tuple(rest)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "import_module":
-            if ast.unparse(node.args[-1]) != "__package__":
-                continue
-            yield from ((*parent, file.stem) for file in package.joinpath(*parent).glob("*.py"))
 
 
 def _executed(node: ast.AST) -> Iterator[ast.AST]:

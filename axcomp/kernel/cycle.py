@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from .activation import activate
 from .compensations import FRICTION, LEADSCREW, compensation_value
+from .interpolation import nearest
 from .motion import AxisMotion, move_axis
 from .record import Vec
-from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
+from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, Inputs, Outputs, State, Tables
 from .shift import absorb, release_shift
 from .switching import SwitchState, SwitchTable, contribution_of
 from .volumetric import compensate_volume
@@ -23,7 +24,7 @@ LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could
 def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outputs) -> None:
     """Run one cycle: the outputs belong to these inputs."""
     for i in range(tables.axis_count):
-        accept(tables.axis[i], state.axis[i], state.motion.axis[i], inputs.axis[i], tables.cycle_time)
+        accept(tables, state.axis[i], state.motion.axis[i], inputs, i)
     if tables.volumetrics > 0:
         compensate_volume(tables, pool, state, inputs, outputs)
     for i in range(tables.axis_count):
@@ -38,8 +39,9 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
             outputs.axis[i].error = axis.error
 
 
-def accept(table: AxisTable, axis: AxisState, motion: AxisMotion, given: AxisInputs, cycle_time: float) -> None:
+def accept(tables: Tables, axis: AxisState, motion: AxisMotion, inputs: Inputs, i: int) -> None:
     """Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle."""
+    given = inputs.axis[i]
     axis.held = not (
         -LARGEST < given.setpoint < LARGEST
         and -LARGEST < given.velocity < LARGEST
@@ -49,8 +51,15 @@ def accept(table: AxisTable, axis: AxisState, motion: AxisMotion, given: AxisInp
     if not axis.held:
         if not axis.started:
             motion.counted = given.setpoint
-        move_axis(motion, given.setpoint, given.velocity, cycle_time, table.modulo_range)
-        motion.acceleration = given.acceleration
+            motion.setpoint = given.setpoint
+        velocity = given.velocity
+        acceleration = given.acceleration
+        if inputs.derive_motion:
+            way = nearest(given.setpoint - motion.setpoint, tables.axis[i].modulo_range)
+            velocity = way / tables.cycle_time
+            acceleration = (velocity - motion.velocity) / tables.cycle_time
+        move_axis(motion, given.setpoint, velocity, tables.cycle_time, tables.axis[i].modulo_range)
+        motion.acceleration = acceleration
 
 
 def correct_axis(tables: Tables, pool: Vec, state: State, inputs: Inputs, out: AxisOutputs, i: int) -> None:
@@ -66,7 +75,7 @@ def correct_axis(tables: Tables, pool: Vec, state: State, inputs: Inputs, out: A
         if kind == LEADSCREW:
             position = motion.setpoint + (correction + axis.shift.before.now)
         if acts(table.switching[kind], axis.switching[kind]):
-            correction += correct_by(kind, tables, pool, state, out, i, position)
+            correction += correct_by(kind, tables, pool, state, inputs.axis[i], out, i, position)
     out.volumetric_correction = axis.volumetric_correction
     correction += out.volumetric_correction
 
@@ -76,7 +85,7 @@ def correct_axis(tables: Tables, pool: Vec, state: State, inputs: Inputs, out: A
     out.corrected_setpoint = motion.setpoint + (correction + out.setpoint_shift)
     out.display_position = inputs.axis[i].actual_position - (correction + out.setpoint_shift)
     if acts(table.switching[FRICTION], axis.switching[FRICTION]):
-        correct_by(FRICTION, tables, pool, state, out, i, position)
+        correct_by(FRICTION, tables, pool, state, inputs.axis[i], out, i, position)
     axis.started = True
 
 
@@ -85,7 +94,16 @@ def acts(table: SwitchTable, state: SwitchState) -> bool:
     return table.configured or state.contribution != 0.0
 
 
-def correct_by(kind: int, tables: Tables, pool: Vec, state: State, out: AxisOutputs, i: int, position: float) -> float:
+def correct_by(
+    kind: int,
+    tables: Tables,
+    pool: Vec,
+    state: State,
+    given: AxisInputs,
+    out: AxisOutputs,
+    i: int,
+    position: float,
+) -> float:
     """Return what a kind adds to axis i in this cycle; what NO_MOVE absorbs of it goes into the shift."""
     table = tables.axis[i]
     axis = state.axis[i]
@@ -93,7 +111,15 @@ def correct_by(kind: int, tables: Tables, pool: Vec, state: State, out: AxisOutp
     value = 0.0
     if table.switching[kind].configured:
         value = compensation_value(
-            kind, pool, table.compensation, axis.compensation, state.motion, i, position, tables.cycle_time
+            kind,
+            pool,
+            table.compensation,
+            axis.compensation,
+            given.compensation,
+            state.motion,
+            i,
+            position,
+            tables.cycle_time,
         )
     out.contribution[kind] = contribution_of(table.switching[kind], own, value)
     out.active[kind] = own.step > 0

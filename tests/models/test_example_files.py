@@ -13,8 +13,7 @@ from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv, write_expected
 from axcomp.demo.examples.machines import MACHINES
 from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.engine.engine import Engine
-from axcomp.kinds import KINDS
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
+from axcomp.kinds import KINDS, Crosstalk, CrosstalkCurve
 from axcomp.kinds.parameter import ListKind, Severity
 from axcomp.lists import read_machine
 from axcomp.model.companions import models

@@ -9,11 +9,7 @@ from strategies import machines
 
 from axcomp.kernel.crosstalk import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
 from axcomp.kernel.fit import tables_fit
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Crosstalk, CrosstalkCurve, CrosstalkTest, Friction, Leadscrew, Plane
 from axcomp.model.machine import CYCLE_TIME, Axis, AxisType, Machine, ModuloRange
 from axcomp.runtime.compile import CompileError, compile_tables
 

@@ -9,11 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, CrosstalkCurve, Friction, Leadscrew, Plane
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import CompileError
 from axcomp.runtime.runtime import Runtime, SnapshotError, UpdateError
