@@ -55,6 +55,7 @@ RIGHT = """
 import numpy as np
 from axcomp import Engine
 from axcomp.native.library import compiled_kernel
+from axcomp.sweep.list_variation import Table
 
 assert (compiled_kernel() is not None) == {compiled}
 engine = Engine("again")
@@ -70,6 +71,14 @@ saved = engine.runtime.save()
 before = engine.step({{"X.setpoint": 60.0}})
 engine.runtime.restore(saved)
 assert engine.step({{"X.setpoint": 60.0}}) == before
+
+engine = Engine("again")
+old, new = 20e-6 * 25.0, 60e-6 * 25.0
+assert engine.step({{"X.setpoint": 35.0}})["X.toy.correction"] == old
+engine.runtime.update(Table("X.toy").applied(engine.machine, 3.0))
+found = [engine.step()["X.toy.correction"] for _ in range(5)]
+left = np.sin(0.5 * np.pi * np.array([3, 2, 1, 0, 0]) / 4) ** 2
+np.testing.assert_allclose(found, new + left * (old - new), rtol=0, atol=1e-15)
 """
 
 IN_HOST = """
