@@ -147,7 +147,7 @@ static int bench_kernel(const char *image, int batches)
     for (int batch = 0; batch < batches; batch++) {
         double begin = now();
         for (int cycle = 0; cycle < CYCLES; cycle++) {
-            axcomp_cycle(&lists.tables, &state, &rows[cycle % ROWS], &outputs);
+            axcomp_cycle(&lists.tables, lists.pool, &state, &rows[cycle % ROWS], &outputs);
         }
         printf("%.3f\n", (now() - begin) / CYCLES);
     }

@@ -128,7 +128,11 @@ class TestStandstill:
     @pytest.mark.parametrize("kind", SOFT)
     def test_residue_of_rounding_is_standstill(self, kind: str) -> None:
         # v += a·T leaves 1e-15; setpoints jitter in their last place
-        columns = {f"S.{kind}_enable": flags("1......"), "S.velocity": 1e-15, "S.setpoint": 7.0 + 1e-15 * flags(".1.1.1.")}
+        columns = {
+            f"S.{kind}_enable": flags("1......"),
+            "S.velocity": 1e-15,
+            "S.setpoint": 7.0 + 1e-15 * flags(".1.1.1."),
+        }
         w = drive(compensated(kind), columns)[f"S.{kind}_correction"]
         assert w == pytest.approx(ramped(kind, "1......"), abs=1e-15)
 
