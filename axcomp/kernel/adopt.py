@@ -48,18 +48,15 @@ def adopt_axis(
         switching = after.switching[kind]
         if not switching.configured:
             switching.blend_cycles = before.switching[kind].blend_cycles
-        difference = 0.0
-        if own.weight > 0.0:
-            difference = own.weight * settled_value(
-                kind, before_pool, before.compensation, axis.compensation, state.motion, i
-            )
+        weight = own.weight
+        value = 0.0
+        if weight > 0.0:
+            value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
         adopt_switch(before.switching[kind], switching, own)
         adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
-        if own.weight > 0.0:
-            difference -= own.weight * settled_value(
-                kind, after_pool, after.compensation, axis.compensation, state.motion, i
-            )
-        blend_in(switching, own, difference)
+        if weight > 0.0 and switching.configured:
+            value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)
+        blend_in(switching, own, weight * value)
     adopt_inputs(before.compensation, after.compensation, given.compensation)
     adopt_shift(before.shift_cycles, after.shift_cycles, axis.shift)
 

@@ -70,7 +70,7 @@ def adopt_shift(before: int, after: int, state: ShiftState) -> None:
     """Go on with a release of another length from where it stands."""
     if state.step > 0:
         weight = ramp(state.step, before)
-        state.step = mapped_step(state.step, before, after)
+        state.step = max(mapped_step(state.step, before, after), 1)
         weight = weight / ramp(state.step, after)
         state.before.released *= weight
         state.behind.released *= weight

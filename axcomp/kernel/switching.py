@@ -137,17 +137,17 @@ def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) ->
     state.absorbed = 0.0
     if state.blend_step > 0:
         rest = ramp(state.blend_step, before.blend_cycles) * state.difference
-        state.blend_step = mapped_step(state.blend_step, before.blend_cycles, after.blend_cycles)
+        state.blend_step = max(mapped_step(state.blend_step, before.blend_cycles, after.blend_cycles), 1)
         state.difference = rest / ramp(state.blend_step, after.blend_cycles)
 
 
 def mapped_step(step: int, before: int, after: int) -> int:
-    """Return the step of a transition of another length that is as far: off stays off, on stays on."""
+    """Return the step of a transition of another length that is nearest to as far."""
     if step <= 0 or before <= 0:
         return 0
     if step >= before:
         return after
-    return min(max((2 * step * after + before) // (2 * before), 1), after)
+    return (2 * step * after + before) // (2 * before)
 
 
 def switch_fits(table: SwitchTable, axes: int) -> bool:

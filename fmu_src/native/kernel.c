@@ -195,7 +195,7 @@ static void blend_in(const SwitchTable *table, SwitchState *state, double differ
     }
 }
 
-/* Return the step of a transition of another length that is as far: off stays off, on stays on. */
+/* Return the step of a transition of another length that is nearest to as far. */
 static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
 {
     if (step <= 0 || before <= 0) {
@@ -204,7 +204,7 @@ static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
     if (step >= before) {
         return after;
     }
-    return int_min(int_max(int_floor_div(2 * step * after + before, 2 * before), 1), after);
+    return int_floor_div(2 * step * after + before, 2 * before);
 }
 
 /* Keep a switch where it stands between off and on: its step becomes the one of about the same weight. */
@@ -218,7 +218,7 @@ static void adopt_switch(const SwitchTable *before, const SwitchTable *after, Sw
     state->absorbed = 0.0;
     if (state->blend_step > 0) {
         double rest = ramp(state->blend_step, before->blend_cycles) * state->difference;
-        state->blend_step = mapped_step(state->blend_step, before->blend_cycles, after->blend_cycles);
+        state->blend_step = int_max(mapped_step(state->blend_step, before->blend_cycles, after->blend_cycles), 1);
         state->difference = rest / ramp(state->blend_step, after->blend_cycles);
     }
 }
@@ -1244,7 +1244,7 @@ static void adopt_shift(int32_t before, int32_t after, ShiftState *state)
 {
     if (state->step > 0) {
         double weight = ramp(state->step, before);
-        state->step = mapped_step(state->step, before, after);
+        state->step = int_max(mapped_step(state->step, before, after), 1);
         weight = weight / ramp(state->step, after);
         state->before.released *= weight;
         state->behind.released *= weight;
@@ -2373,18 +2373,17 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
         if (!switching->configured) {
             switching->blend_cycles = before->switching[kind].blend_cycles;
         }
-        double difference = 0.0;
-        if (own->weight > 0.0) {
-            difference = own->weight
-                    * settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
+        double weight = own->weight;
+        double value = 0.0;
+        if (weight > 0.0) {
+            value = settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
         }
         adopt_switch(&before->switching[kind], switching, own);
         adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
-        if (own->weight > 0.0) {
-            difference -= own->weight
-                    * settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);
+        if (weight > 0.0 && switching->configured) {
+            value -= settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);
         }
-        blend_in(switching, own, difference);
+        blend_in(switching, own, weight * value);
     }
     adopt_inputs(&before->compensation, &after->compensation, &given->compensation);
     adopt_shift(before->shift_cycles, after->shift_cycles, &axis->shift);
