@@ -45,7 +45,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "budget",
-        help="what each compensation and each error contributes along a path",
         description="Show how many µm each compensation and each volumetric error contributes along a path.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -68,8 +67,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_budget(args: argparse.Namespace) -> int:
-    machine, findings = read_machine(args.path)
-    for finding in findings:
+    reading = read_machine(args.path)
+    machine = reading.machine
+    for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)
     fault = "" if machine.axes else f"{args.path}: there is no axis in these lists"

@@ -43,7 +43,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "build",
-        help="build the FMU of a machine from its lists",
         description="Build an FMI 2.0 co-simulation FMU that corrects setpoints as the controller's lists say.",
         epilog=EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -101,7 +100,7 @@ def _do_build(args: argparse.Namespace) -> int:
             print(finding, file=sys.stderr)
         for line in _summary(built):
             print(line)
-        _write_diagnoses(args.machine or example, built)
+        _write_diagnoses(built.reading)
         if args.machine is None and args.output is None and args.image is None:
             print(package_plant(example, Path.cwd(), external_tool=not args.no_external_tool).name)
     except NoCompilerError as error:
@@ -126,9 +125,9 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
     )
 
 
-def _write_diagnoses(lists: Path, built: Built) -> None:
+def _write_diagnoses(reading: Reading) -> None:
     """Write the diagnosis files that volumetric lists name; what stands in the way of that stops no build."""
-    sources = [source for source in volumetric_lists(lists)[0] if source.diagnosis_file]
+    sources = [source for source in volumetric_lists(reading)[0] if source.diagnosis_file]
     if not sources:
         return
     try:
@@ -137,7 +136,7 @@ def _write_diagnoses(lists: Path, built: Built) -> None:
         names = ", ".join(source.diagnosis_file for source in sources)
         print(f"note: {names} is not written without {error.name}: pip install 'axcomp[workbench]'.", file=sys.stderr)
         return
-    for result in write_diagnoses(sources, Reading(built.machine, built.findings)):
+    for result in write_diagnoses(sources, reading):
         if isinstance(result, Written):
             print(result.path)
         for note in result.notes if isinstance(result, Written) else [result]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 from ..analysis.judgement import Judgement
@@ -33,7 +33,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command to the command line."""
     parser = subparsers.add_parser(
         "check",
-        help="check the lists of a machine",
         description="Read the lists of a machine and print what was found, one finding a line: "
         "file:line: severity code: sentence. The exit status is the number of errors, at most 100.",
         epilog=_EXAMPLE,
@@ -53,8 +52,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 def _do_check(options: argparse.Namespace) -> int:
     reading = read_machine(options.path)
     evidence = evidence_of(options, reading.machine)
-    judgement = judgement_of(options, reading.machine, evidence)
-    reading = Reading(reading.machine, (*reading.findings, *judgement.findings))
+    judgement = judgement_of(options, reading, evidence)
+    reading = replace(reading, findings=(*reading.findings, *judgement.findings))
     counts = {severity: sum(f.severity is severity for f in reading.findings) for severity in Severity}
     if options.format == "json":
         print(json.dumps(_as_json(reading, counts, judgement), indent=2, ensure_ascii=False))

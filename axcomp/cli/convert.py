@@ -5,16 +5,15 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, per_mille, recognized, written
+from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, recognized, shown_unit, written
 from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
 from ..convert.table import CannotHoldError, CompensationTable, FormatError
 from ..kinds import KINDS
-from ..lists import Severity, read_machine, write_machine
+from ..lists import Severity, machine_documents, read_machine, write_machine
 from ..lists.grammar import decode
 from ..model.companions import machine_path
 from ..model.machine import Machine
@@ -40,7 +39,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "convert",
-        help="convert leadscrew and cross tables to and from other controllers",
         description="Convert leadscrew and cross compensation tables to and from other controllers.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -56,7 +54,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--over", metavar="AXIS", help="axis of the positions, where the file does not tell it")
     parser.add_argument("--rotary", metavar="AXIS,…", default="", help="rotary axes, where the file does not tell them")
     parser.add_argument(
-        "--within", type=float, metavar="µm", help="choose other points; they may cost this much (rotary: m°)"
+        "--within", type=float, metavar="µm", help="choose other points; they may cost this much (rotary: ″)"
     )
     parser.add_argument("--max-points", type=int, metavar="N", help="points the other control reserves for a table")
     parser.add_argument("--encoder", type=int, choices=(0, 1), default=0, help="measuring system of ENC_COMP (0)")
@@ -132,21 +130,19 @@ def _read(args: argparse.Namespace) -> tuple[list[CompensationTable], list[str]]
 
 
 def _machine(path: Path) -> Machine:
-    machine, findings = read_machine(path)
-    for finding in findings:
+    reading = read_machine(path)
+    for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)
-    return machine
+    return reading.machine
 
 
 def _write_lists(tables: Sequence[CompensationTable], args: argparse.Namespace) -> list[Compared]:
-    """Write a machine's lists once they are found to be right in another place."""
+    """Write a machine's lists once what they say is found to be right."""
     if args.output is None:
         raise CannotHoldError("lists are several files: give a folder for them with --output")
     machine = machine_with(tables, None if args.machine is None else _machine(args.machine))
-    with tempfile.TemporaryDirectory() as folder:
-        write_machine(machine, folder)
-        back = read_machine(folder).machine
+    back = read_machine(args.output, documents=machine_documents(machine, args.output)).machine
     after = [table for kind in CONVERTED for table in _all_of(back, kind)]
     result = compared(tables, after, args.within)
     write_machine(machine, args.output)
@@ -162,7 +158,7 @@ def _sentence(one: Compared) -> str:
     points = f"{len(one.before.positions)} points, written {len(one.after.positions)}"
     motion = "positive" if direction > 0 else "negative"
     where = f" at {position:g} {one.before.over_unit} in {motion} motion" if size else ""
-    return f"{one.before.name}: {points}; largest difference {size:.4f} {per_mille(one.before)}{where}"
+    return f"{one.before.name}: {points}; largest difference {size:.4f} {shown_unit(one.before)}{where}"
 
 
 def _figures(one: Compared) -> dict[str, object]:
@@ -173,7 +169,7 @@ def _figures(one: Compared) -> dict[str, object]:
         "points": len(one.before.positions),
         "written_points": len(one.after.positions),
         "largest_difference": one.difference.size,
-        "unit": per_mille(one.before),
+        "unit": shown_unit(one.before),
         "at": one.difference.position,
         "direction": one.difference.direction,
     }

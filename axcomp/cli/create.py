@@ -96,7 +96,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "create",
-        help="make compensation tables from measurements",
         description="Makes a compensation table from measurements and puts it into a list; the rest of the list stays.",
         epilog="example:\n  axcomp create leadscrew --from x.rtl --into achskw1.lis --bound 0.5",
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -123,7 +122,8 @@ def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], name: 
     parser.add_argument("--output", type=Path, metavar="FILE", help="write there instead")
     parser.add_argument("--dry-run", action="store_true", help="write nothing")
     unit = "drive unit" if name == "friction" else "µm"
-    parser.add_argument("--bound", type=float, metavar=unit, help="thin, but stay within this of the measured means")
+    within = "thin, but stay within this of the measured means" + (" (rotary axes: ″)" if unit == "µm" else "")
+    parser.add_argument("--bound", type=float, metavar=unit, help=within)
     if name != "crosstalk":
         parser.add_argument("--max-points", type=int, metavar="N", help="let the list reserve so many entries")
     parser.add_argument("--axis", type=int, metavar="N", help="logical axis number of a new list")

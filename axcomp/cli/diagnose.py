@@ -31,7 +31,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "diagnose",
-        help="write all records of the volumetric compensations",
         description="Write the diagnosis files of volumetric compensations: spreadsheets of all records, sorted.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -43,7 +42,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_diagnose(args: argparse.Namespace) -> int:
-    found, faults = volumetric_lists(args.path)
+    reading = read_machine(args.path)
+    found, faults = volumetric_lists(reading)
     status = max([0, *map(_fail, faults)])
     sources = [source for source in found if args.id in (None, source.index)]
     if not sources:
@@ -53,7 +53,7 @@ def _do_diagnose(args: argparse.Namespace) -> int:
     if not taken:
         names = ", ".join(source.path.name for source in sources)
         return _fail(f"{names}: no diagnosis_file is named; --output FILE says where to write.")
-    for result in write_diagnoses(taken, read_machine(args.path), args.output):
+    for result in write_diagnoses(taken, reading, args.output):
         status = max(status, _fail(str(result)) if isinstance(result, BuildError) else _tell(result))
     return status
 

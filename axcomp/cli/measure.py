@@ -12,6 +12,7 @@ from ..measurement.columns import MeasurementError
 from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
 from ..measurement.positioning import Positioning, joined, read_positioning
 from ..measurement.uncertainty import Conditions
+from ..model.quantity import symbol
 from .check import STATUS_MAX
 
 _EPILOG = """\
@@ -39,7 +40,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "measure",
-        help="evaluate positioning measurements by ISO 230-2",
         description="Evaluates positioning measurements by ISO 230-2: accuracy, repeatability, reversal.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -117,7 +117,7 @@ def _print(result: Iso230Result) -> None:
         ]
         for position, row in zip(result.positions, frame.to_numpy(), strict=True)
     ]
-    header = [f"target [{'mm' if result.position_unit == 'mm' else '°'}]", *map(str, frame)]
+    header = [f"target [{symbol(result.position_unit)}]", *map(str, frame)]
     axis = f", axis {result.axis}" if result.axis else ""
     out.print(table(f"{result.source}{axis}: by target, in {result.unit}", header, rows))
     figures = [

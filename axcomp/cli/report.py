@@ -28,7 +28,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "report",
-        help="write everything about a machine on one page",
         description="Write a self-contained HTML page about the compensations of a machine.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -57,7 +56,7 @@ def _do_report(options: argparse.Namespace) -> int:
         return 1
     evidence = evidence_of(options, reading.machine)
     report = make_report(
-        options.path,
+        reading,
         readings=evidence.readings,
         measurements=evidence.measurements,
         demand=evidence.demand,

@@ -12,7 +12,6 @@ from pathlib import Path
 from ..kinds import KINDS
 from ..lists import Severity, read_machine
 from ..model.companions import machine_path
-from ..model.machine import Machine
 from ..plot.content import Content, NotComparableError, Records
 from ..plot.contents import contents_of
 from ..plot.page import overview, page, shown
@@ -40,7 +39,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "show",
-        help="show compensation tables as pictures and tables",
         description="Show the compensation tables of a machine, or the difference of two machines.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -88,9 +86,9 @@ def _do_show(args: argparse.Namespace) -> int:
 
 def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
     """Return what is asked for, and the names of the machine's axes."""
-    machine: Machine
-    machine, findings = read_machine(path)
-    for finding in findings:
+    reading = read_machine(path)
+    machine = reading.machine
+    for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)
     contents = [] if args.kind == VOLUMETRIC else contents_of(machine, args.axis, args.kind)

@@ -27,7 +27,7 @@ import numpy as np
 from .numbers import decimal, scale
 from .resample import on_equidistant_points
 from .sinumerik import MAX_POINTS, Setting, index_of_last_point, program, settings, values_of
-from .table import CompensationTable, FormatError, Unit, unilateral_if_equal
+from .table import CompensationTable, FormatError, Unit
 
 _PREFIX = "$AN_CEC"
 _PARAMETERS = ("STEP", "MIN", "MAX", "INPUT_AXIS", "OUTPUT_AXIS", "DIRECTION", "FACTOR", "MULT_BY_TABLE", "IS_MODULO")
@@ -122,7 +122,7 @@ def _part(number: int, written: _Written, inch: bool, rotary: Collection[str]) -
     weight = written.number("FACTOR", 1.0) * written.number("TABLE_WEIGHT", 1.0) * scale(unit, inch)
     factor = scale(over_unit, inch)
     try:
-        curve = CompensationTable(
+        curve = CompensationTable.of(
             axis,
             over,
             tuple((low + index * step) * factor for index in range(last + 1)),
@@ -142,23 +142,14 @@ def _sum(parts: Sequence[_Part]) -> CompensationTable:
     for part in parts[1:]:
         if not _same_rhythm(part.curve, first):
             raise FormatError(part.line, f"the tables of {first.axis} over {first.over} repeat differently")
-    positions = np.unique(np.concatenate([part.curve.positions for part in parts]))
-    curves = {direction: np.zeros(len(positions)) for direction in (1, -1)}
+    positions = sorted({position for part in parts for position in part.curve.positions})
+    positive, negative = np.zeros((2, len(positions)))
     for part in parts:
-        for direction in part.directions:
-            # Not at(): the end of a table that repeats is a point of its own here.
-            curves[direction] += np.interp(positions, part.curve.positions, part.curve.positive)
-    summed = CompensationTable(
-        first.axis,
-        first.over,
-        tuple(positions.tolist()),
-        tuple(curves[1].tolist()),
-        tuple(curves[-1].tolist()),
-        first.period,
-        first.unit,
-        first.over_unit,
-    )
-    return unilateral_if_equal(summed)
+        values = part.curve.positive.on(positions).y
+        positive += values if 1 in part.directions else 0.0
+        negative += values if -1 in part.directions else 0.0
+    curves = (positive.tolist(), negative.tolist())
+    return CompensationTable.of(first.axis, first.over, positions, *curves, first.period, first.unit, first.over_unit)
 
 
 def _same_rhythm(one: CompensationTable, other: CompensationTable) -> bool:
@@ -185,7 +176,7 @@ def write_cec(
     max_points : int
         What MD18342 of the control reserves for each table.
     within : float or None
-        µm (m°) that equidistant points may cost; None: they must be equidistant.
+        µm (″) that equidistant points may cost; None: they must be equidistant.
 
     Raises
     ------
@@ -210,7 +201,7 @@ def _blocks(table: CompensationTable, number: int, direction: int, inch: bool) -
         f"; {table.axis} over {table.over}: {last + 1} points, MD18342 MM_CEC_MAX_POINTS[{number}] must hold them",
         *(
             f"{_PREFIX}[{number},{index}]={decimal(value / factor)}"
-            for index, value in enumerate(table.curve(direction or 1))
+            for index, value in enumerate(table.curve(direction or 1).y)
         ),
         f"{_PREFIX}_INPUT_AXIS[{number}]=({table.over})",
         f"{_PREFIX}_OUTPUT_AXIS[{number}]=({table.axis})",

@@ -94,7 +94,7 @@ def _table(name: str, written: _Written, inch: bool, rotary: bool) -> Compensati
     if modulo and last == 0:
         raise FormatError(line, f"the table of {name} repeats but has no length")
     try:
-        return CompensationTable(
+        return CompensationTable.of(
             name,
             name,
             tuple((low + index * step) * factor for index in range(last + 1)),
@@ -128,7 +128,7 @@ def write_enc_comp(
     max_points : int
         What MD38000 of the control reserves.
     within : float or None
-        µm (m°) that equidistant points may cost; None: they must be equidistant.
+        µm (″) that equidistant points may cost; None: they must be equidistant.
 
     Raises
     ------
@@ -158,7 +158,7 @@ def _blocks(table: CompensationTable, encoder: int, inch: bool) -> list[str]:
         f"; {table.axis}: {last + 1} points, MD38000 MM_ENC_COMP_MAX_POINTS must hold them",
         *(
             f"{_PREFIX}[{encoder},{index},{table.axis}]={decimal(-value / factor)}"
-            for index, value in enumerate(table.positive)
+            for index, value in enumerate(table.positive.y)
         ),
         f"{_PREFIX}_STEP[{encoder},{table.axis}]={decimal(step)}",
         f"{_PREFIX}_MIN[{encoder},{table.axis}]={decimal(low)}",

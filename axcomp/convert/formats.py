@@ -17,8 +17,8 @@ from .table import CannotHoldError, CompensationTable, Difference, FormatError, 
 
 LISTS = "lists"
 """The controller's own lists, which are read and written as a whole machine."""
-WITHIN = 0.05
-"""µm (m°) that a conversion may change a correction unless told otherwise: half of what the lists resolve."""
+WITHIN = 0.5e-4
+"""mm or ° that a conversion may change a correction unless told otherwise: half of what the lists resolve."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Options:
     max_points : int
         Points the other control reserves for a table.
     within : float or None
-        µm (m°) that another choice of points may cost; None: the points stay as they are.
+        µm (″) that another choice of points may cost; None: the points stay as they are.
     """
 
     axis: str | None = None
@@ -169,19 +169,19 @@ def compared(
         if other is None:
             raise CannotHoldError(f"{table.name} is not in what was written")
         difference = largest_difference(table, other)
-        allowed = WITHIN if within is None else max(within, WITHIN)
+        allowed = max(within or 0.0, WITHIN * table.positive.of.factor)
         if difference.size > allowed * (1.0 + 1e-6):
             raise CannotHoldError(
-                f"{table.name} would differ by {difference.size:.3f} {per_mille(table)} at {difference.position:g} "
+                f"{table.name} would differ by {difference.size:.3f} {shown_unit(table)} at {difference.position:g} "
                 f"{table.over_unit}; {allowed:g} are allowed"
             )
         result.append(Compared(table, other, difference))
     return result
 
 
-def per_mille(table: CompensationTable) -> str:
-    """Return the unit of a table's differences: a thousandth of its own."""
-    return "µm" if table.unit == "mm" else "m°"
+def shown_unit(table: CompensationTable) -> str:
+    """Return the unit of a table's differences: µm or ″."""
+    return table.positive.of.scaled().unit
 
 
 def recognized(text: str) -> str | None:

@@ -25,11 +25,9 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Sequence
 
-import numpy as np
-
 from .numbers import number, scale, shortened
 from .resample import on_equidistant_points
-from .table import CannotHoldError, CompensationTable, FormatError, Unit, beginning_at, unilateral_if_equal
+from .table import CannotHoldError, CompensationTable, FormatError, Unit, beginning_at
 
 DECIMALS = 4
 POINTS_MAX_ITNC = 256
@@ -175,17 +173,18 @@ def read_heidenhain(text: str, *, over: str | None = None, rotary: Collection[st
     for axis, values in sheet.columns.items():
         unit: Unit = "deg" if axis in rotary else "mm"
         factor = -scale(unit, sheet.inch)
-        table = CompensationTable(
-            axis,
-            over,
-            places,
-            tuple(value * factor for value in values),
-            None if negative is None else tuple(value * factor for value in negative),
-            TURN if over_unit == "deg" else None,
-            unit,
-            over_unit,
+        tables.append(
+            CompensationTable.of(
+                axis,
+                over,
+                places,
+                [value * factor for value in values],
+                None if negative is None else [value * factor for value in negative],
+                TURN if over_unit == "deg" else None,
+                unit,
+                over_unit,
+            )
         )
-        tables.append(unilateral_if_equal(table))
     return tables
 
 
@@ -207,9 +206,8 @@ def write_heidenhain(tables: Sequence[CompensationTable]) -> str:
         raise CannotHoldError(f"a .COM file holds one bilateral table; there are {len(tables)} over {tables[0].over}")
     labels = ["AXISPOS", "BACKLASH", *(table.axis for table in tables)]
     lines = [f"BEGIN AXIS_{tables[0].over}.COM MM", _row("NR", labels)]
-    # Not at(): the end of a turn is a point of its own here.
-    columns = [np.interp(positions, table.positions, table.positive) for table in tables]
-    backlash = None if tables[0].negative is None else np.interp(positions, tables[0].positions, tables[0].negative)
+    columns = [table.positive.on(positions).y for table in tables]
+    backlash = None if tables[0].negative is None else tables[0].negative.on(positions).y
     for index, position in enumerate(positions):
         reverse = "" if backlash is None else _signed(-backlash[index])
         cells = [_signed(position), reverse, *(_signed(-column[index]) for column in columns)]
@@ -225,7 +223,7 @@ def write_itnc(tables: Sequence[CompensationTable], *, within: float | None = No
     tables : sequence of CompensationTable
         One table; over a rotary axis it repeats every 360°.
     within : float or None
-        µm (m°) that equidistant points may cost; None: they must be equidistant.
+        µm (″) that equidistant points may cost; None: they must be equidistant.
 
     Raises
     ------
@@ -248,7 +246,7 @@ def write_itnc(tables: Sequence[CompensationTable], *, within: float | None = No
         f"BEGIN AXIS-{even.over}.COM DATUM:{_signed(datum)} DISTANCE:{_signed(distance)}",
         _row("NR", ["", even.axis]),
     ]
-    for index, value in enumerate(even.positive):
+    for index, value in enumerate(even.positive.y):
         lines.append(_row(str(index), [_signed(datum + index * distance), _signed(-value)]))
     return "\n".join([*lines, "[END]"]) + "\n"
 
@@ -259,7 +257,7 @@ def _together(tables: Sequence[CompensationTable]) -> tuple[list[CompensationTab
     if len(over) != 1:
         raise CannotHoldError(f"a .COM file is over one axis; the tables are over {', '.join(over) or 'none'}")
     ready = [_turning(table) for table in tables]
-    positions = np.unique(np.round(np.concatenate([table.positions for table in ready]), DECIMALS)).tolist()
+    positions = sorted({round(position, DECIMALS) for table in ready for position in table.positions})
     if len(ready) == 1 and len(positions) < len(ready[0].positions):
         raise CannotHoldError(f"{ready[0].name} has points less than 0.0001 {ready[0].over_unit} apart")
     return ready, positions

@@ -15,7 +15,7 @@ Source: LinuxCNC, INI Configuration, section [JOINT_<num>]; ``usrmotLoadComp`` i
 from __future__ import annotations
 
 from .numbers import decimal, number, scale, shortened
-from .table import CannotHoldError, CompensationTable, FormatError, Unit, unilateral_if_equal
+from .table import CannotHoldError, CompensationTable, FormatError, Unit
 
 POINTS_MAX = 256
 """Triplets of a joint."""
@@ -74,8 +74,7 @@ def read_linuxcnc(
         reverse.append(trims[1] * factor)
     if not nominals:
         raise FormatError(0, "the file has no points")
-    table = CompensationTable(axis, axis, tuple(nominals), tuple(forward), tuple(reverse), unit=unit, over_unit=unit)
-    return unilateral_if_equal(table)
+    return CompensationTable.of(axis, axis, nominals, forward, reverse, unit=unit, over_unit=unit)
 
 
 def write_linuxcnc(table: CompensationTable, *, comp_type: int, inch: bool = False) -> str:
@@ -105,7 +104,7 @@ def write_linuxcnc(table: CompensationTable, *, comp_type: int, inch: bool = Fal
         raise CannotHoldError(f"{table.name} has {len(table.positions)} points; LinuxCNC takes {POINTS_MAX}")
     factor = scale(table.unit, inch)
     lines = []
-    for position, positive, negative in zip(table.positions, table.positive, table.curve(-1), strict=True):
+    for position, positive, negative in zip(table.positions, table.positive.y, table.curve(-1).y, strict=True):
         nominal = position / factor
         sides = (positive / factor, negative / factor)
         written = [nominal - side for side in sides] if comp_type == 0 else sides

@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ..kinds.cross import Cross
-from ..kinds.leadscrew import Leadscrew
+from ..kinds import Cross, Leadscrew, shown
+from ..kinds import tables_of as tables_of_machine
+from ..model.curve import Curve
+from ..model.grid import Grid
 from ..model.machine import Axis, AxisType, Machine, ModuloRange
 from .table import CannotHoldError, CompensationTable, Unit
 
 CONVERTED = ("leadscrew", "cross")
 """Kinds that are tables over the position of one axis."""
 
-_OTHERS = {
-    "plane": "is a table over two axes",
-    "crosstalk": "is a table over accelerations",
-    "friction": "is a table of currents over velocities",
-}
+_OVER = {shown.ACCELERATION: "is a table over accelerations", shown.SPEED: "is a table of currents over velocities"}
 
 
 def tables_of(machine: Machine, axis: str | None = None, kind: str | None = None) -> list[CompensationTable]:
@@ -41,20 +39,17 @@ def tables_of(machine: Machine, axis: str | None = None, kind: str | None = None
         names = ", ".join(other.name for other in machine.axes) or "none"
         raise CannotHoldError(f"there is no axis {axis!r}; the machine has {names}")
     tables = []
-    for one in machine.axes:
-        for compensation in one.compensations:
-            name = compensation.kind
-            if axis not in {None, one.name} or kind not in {None, name}:
-                continue
-            if isinstance(compensation, Leadscrew):
-                tables.append(_of_leadscrew(one, compensation))
-            elif isinstance(compensation, Cross):
-                tables.append(_of_cross(machine, one, compensation))
-            else:
-                hint = "" if kind else "; choose with --axis and --kind"
-                raise CannotHoldError(
-                    f"the {name} compensation of {one.name} {_OTHERS[name]}: no other format holds it{hint}"
-                )
+    for one in tables_of_machine(machine, axis, kind):
+        if not one.curves:
+            hint = "" if kind else "; choose with --axis and --kind"
+            raise CannotHoldError(
+                f"the {one.kind} compensation of {one.axis.name} {_why(one.tables[0])}: no other format holds it{hint}"
+            )
+        first, *others = (curve.added() for curve in one.curves)
+        over = machine.axis(first.over.axis)
+        negative = others[0].y if others else None
+        values = (first.x, first.y, negative, first.period, _unit(one.axis), _unit(over))
+        tables.append(CompensationTable.of(one.axis.name, over.name, *values))
     if machine.volumetric and axis is None and kind is None:
         raise CannotHoldError("a volumetric compensation is no table over one axis; choose with --axis and --kind")
     if not tables:
@@ -63,19 +58,12 @@ def tables_of(machine: Machine, axis: str | None = None, kind: str | None = None
     return tables
 
 
-def _of_leadscrew(axis: Axis, leadscrew: Leadscrew) -> CompensationTable:
-    unit: Unit = _unit(axis)
-    period = axis.modulo.end - axis.modulo.start if leadscrew.modulo and axis.modulo is not None else None
-    negative = None if leadscrew.negative is None else _negated(leadscrew.negative)
-    return CompensationTable(
-        axis.name, axis.name, leadscrew.positions, _negated(leadscrew.positive), negative, period, unit, unit
-    )
-
-
-def _of_cross(machine: Machine, axis: Axis, cross: Cross) -> CompensationTable:
-    master = machine.axes[machine.index_of(cross.master)]
-    return CompensationTable(
-        axis.name, master.name, cross.positions, cross.corrections, unit=_unit(axis), over_unit=_unit(master)
+def _why(table: shown.Table) -> str:
+    """Return in words why no other format holds a table."""
+    if isinstance(table, Grid):
+        return "is a table over two axes"
+    return _OVER.get(
+        table.over.name if isinstance(table, Curve) else "", "is no table over the position of one axis alone"
     )
 
 
@@ -174,8 +162,8 @@ def _with_leadscrew(axis: Axis, table: CompensationTable) -> Axis:
     leadscrew = replace(
         old,
         positions=table.positions,
-        positive=_negated(table.positive),
-        negative=None if table.negative is None else _negated(table.negative),
+        positive=_negated(table.positive.y),
+        negative=None if table.negative is None else _negated(table.negative.y),
         modulo=table.period is not None,
         max_points=max(old.max_points, len(table.positions)),
     )
@@ -194,7 +182,7 @@ def _with_cross(axis: Axis, master: int, table: CompensationTable) -> Axis:
         old,
         master=master,
         positions=table.positions,
-        corrections=table.positive,
+        corrections=table.positive.y,
         max_points=max(old.max_points, len(table.positions)),
     )
     return axis.having(cross)

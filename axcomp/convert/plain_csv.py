@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from io import StringIO
 
 from .numbers import decimal, number, shortened
-from .table import CompensationTable, FormatError, Unit, unilateral_if_equal
+from .table import CompensationTable, FormatError, Unit
 
 COLUMNS = ("axis", "unit", "over", "over_unit", "period", "position", "correction_positive", "correction_negative")
 _SIGNS = {"correction": 1.0, "error": -1.0}
@@ -145,11 +145,11 @@ def _table(key: tuple[str, str], written: _Written) -> CompensationTable:
     if key[0] == key[1] and own != over:
         raise FormatError(written.line, f"axis {key[0]} cannot be in mm and deg at once")
     try:
-        table = CompensationTable(
+        return CompensationTable.of(
             *key,
-            tuple(written.positions),
-            tuple(written.positive),
-            tuple(written.negative),
+            written.positions,
+            written.positive,
+            written.negative,
             number(period, written.line, "period") if period else None,
             own,
             over,
@@ -158,7 +158,6 @@ def _table(key: tuple[str, str], written: _Written) -> CompensationTable:
         if isinstance(error, FormatError):
             raise
         raise FormatError(written.line, str(error)) from None
-    return unilateral_if_equal(table)
 
 
 def write_csv(tables: Sequence[CompensationTable]) -> str:
@@ -169,7 +168,7 @@ def write_csv(tables: Sequence[CompensationTable]) -> str:
     for table in tables:
         period = "" if table.period is None else decimal(table.period)
         head = (table.axis, table.unit, table.over, table.over_unit, period)
-        for index, position in enumerate(table.positions):
-            negative = "" if table.negative is None else decimal(table.negative[index])
-            writer.writerow([*head, decimal(position), decimal(table.positive[index]), negative])
+        for position, positive, other in zip(table.positions, table.positive.y, table.curve(-1).y, strict=True):
+            negative = "" if table.negative is None else decimal(other)
+            writer.writerow([*head, decimal(position), decimal(positive), negative])
     return out.getvalue()

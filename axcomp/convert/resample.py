@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from .table import CannotHoldError, CompensationTable, closed
+from ..model.curve import Curve
+from .table import CannotHoldError, CompensationTable
 
 ON_GRID = 1e-4
 """How far a point may lie off its place and still count as equidistant, mm or °: what the lists resolve."""
-EXACT = 1e-6
-"""Differences up to this many µm come from the arithmetic alone."""
+EXACT = 1e-9
+"""Differences up to this, in mm or °, come from the arithmetic alone."""
 
 
 def on_equidistant_points(table: CompensationTable, max_points: int, within: float | None) -> CompensationTable:
@@ -24,57 +25,43 @@ def on_equidistant_points(table: CompensationTable, max_points: int, within: flo
     max_points : int
         The most the other controller takes.
     within : float or None
-        How many µm (m°) another choice of points may change the corrections; None: the points stay as they are.
+        How many µm (″) another choice of points may change the corrections; None: the points stay as they are.
 
     Raises
     ------
     CannotHoldError
         If the points are not equidistant and no bound is stated, the bound cannot be met, or there are too many points.
     """
-    full = closed(table)
-    if len(full.positions) == 1:
+    full = table.mapped(Curve.closed)
+    x = full.positions
+    if len(x) == 1:
         # A constant: any second point makes a distance.
-        negative = None if full.negative is None else full.negative * 2
-        positions = (full.positions[0], full.positions[0] + 1.0)
-        return replace(full, positions=positions, positive=full.positive * 2, negative=negative)
-    count = len(full.positions)
-    grid = np.linspace(full.positions[0], full.positions[-1], count)
-    if np.max(np.abs(grid - full.positions)) <= ON_GRID:
-        if count > max_points:
-            raise CannotHoldError(f"{table.name} has {count} points; there is room for {max_points}")
-        return replace(full, positions=tuple(grid.tolist()))
-    gaps = np.diff(full.positions)
+        return full.mapped(lambda curve: replace(curve, x=(x[0], x[0] + 1.0), y=curve.y * 2))
+    even = np.linspace(x[0], x[-1], len(x))
+    if np.max(np.abs(even - x)) <= ON_GRID:
+        if len(x) > max_points:
+            raise CannotHoldError(f"{table.name} has {len(x)} points; there is room for {max_points}")
+        return full.mapped(lambda curve: replace(curve, x=tuple(even.tolist())))
+    gaps, unit = np.diff(x), table.positive.of.scaled().unit
     if within is None:
         raise CannotHoldError(
             f"the points of {table.name} are {gaps.min():g} to {gaps.max():g} {table.over_unit} apart, but must be "
-            "equidistant: say how many µm other points may cost (--within)"
+            f"equidistant: say how many {unit} other points may cost (--within)"
         )
-    return _fewest_points(full, max_points, within)
-
-
-def _fewest_points(table: CompensationTable, max_points: int, within: float) -> CompensationTable:
-    """Try one number of points after the other.
-
-    The new points lie on the old curve and both are straight between their points: the largest difference is found at
-    the old ones.
-    """
-    old = np.asarray(table.positions)
-    curves = [np.asarray(curve) for curve in (table.positive, table.negative) if curve is not None]
-    least = np.inf
+    factor, least = table.positive.of.factor, np.inf
     for count in range(2, max_points + 1):
-        grid = np.linspace(old[0], old[-1], count)
-        values = [np.interp(grid, old, curve) for curve in curves]
-        off = max(
-            float(np.max(np.abs(np.interp(old, grid, new) - curve))) for new, curve in zip(values, curves, strict=True)
-        )
-        if off * 1e3 <= within + EXACT:
-            return replace(
-                table,
-                positions=tuple(grid.tolist()),
-                positive=tuple(values[0].tolist()),
-                negative=None if table.negative is None else tuple(values[1].tolist()),
-            )
-        least = min(least, off * 1e3)
+        points = np.linspace(x[0], x[-1], count)
+        off = max(_off(curve, points) for curve in (full.positive, full.negative) if curve is not None)
+        if off <= within / factor + EXACT:
+            return full.mapped(lambda curve, points=points: curve.on(points.tolist()))  # type: ignore[misc]
+        least = min(least, factor * off)
     raise CannotHoldError(
-        f"{table.name} on up to {max_points} equidistant points is {least:.3f} µm off at best, not {within:g} µm"
+        f"{table.name} on up to {max_points} equidistant points is {least:.3f} {unit} off at best, "
+        f"not {within:g} {unit}"
     )
+
+
+def _off(curve: Curve, points: np.ndarray) -> float:
+    """Return how far a curve is off through other points of its own: the largest difference is at the old ones."""
+    through = np.interp(curve.x, points, np.interp(points, curve.x, curve.y))
+    return float(np.max(np.abs(through - curve.y)))

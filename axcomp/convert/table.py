@@ -6,24 +6,17 @@ actual − programmed and is subtracted (semantics §5), so it changes its sign 
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import Literal, NamedTuple
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, TypeAlias
 
-import numpy as np
-import numpy.typing as npt
+from ..model.curve import Curve
+from ..model.quantity import Quantity, symbol
 
-Array = npt.NDArray[np.float64]
-Unit = Literal["mm", "deg"]
+Unit: TypeAlias = Literal["mm", "deg"]
+_UNITS: dict[str, Unit] = {"mm": "mm", "°": "deg"}
 
 MM_PER_INCH = 25.4
-ROUNDING = 1e-12
-"""Relative error that sums of distances may have."""
-DENSE = 10_001
-"""Places at which two tables are compared besides their interpolation points."""
-BEYOND = 0.1
-"""Share of the range by which the comparison goes beyond both ends, where the end values are held."""
 
 
 class FormatError(ValueError):
@@ -41,7 +34,7 @@ class CannotHoldError(ValueError):
 
 @dataclass(frozen=True, repr=False)
 class CompensationTable:
-    """Corrections of one axis over the position of an axis: linear between the points, the end values held outside.
+    """Corrections of one axis over the position of an axis.
 
     Attributes
     ----------
@@ -49,41 +42,49 @@ class CompensationTable:
         The axis that is corrected.
     over : str
         The axis whose position is looked up; the same one for a leadscrew compensation.
-    positions : tuple of float
-        Interpolation points, strictly ascending, in ``over_unit``.
-    positive : tuple of float
-        Added to the setpoint in positive motion of ``over``, one for each point, in ``unit``.
-    negative : tuple of float or None
-        The same in negative motion; None: ``positive`` serves both.
-    period : float or None
-        The table repeats every ``period``, beginning at the first point; from the last point on it leads back to the
-        first one. None: it does not repeat.
-    unit, over_unit : str
-        ``mm`` or ``deg``, by the type of either axis.
+    positive : Curve
+        Added to the setpoint in positive motion of ``over``.
+    negative : Curve or None
+        The same in negative motion, at the same points; None: ``positive`` serves both.
     """
 
     axis: str
     over: str
-    positions: tuple[float, ...]
-    positive: tuple[float, ...]
-    negative: tuple[float, ...] | None = None
-    period: float | None = None
-    unit: Unit = "mm"
-    over_unit: Unit = "mm"
+    positive: Curve
+    negative: Curve | None = None
 
-    def __post_init__(self) -> None:
-        if not self.positions:
-            raise ValueError(f"{self.name} has no points")
-        curves = (self.positive,) if self.negative is None else (self.positive, self.negative)
-        if any(len(curve) != len(self.positions) for curve in curves):
-            raise ValueError(f"{self.name} has not one value for each of its {len(self.positions)} points")
-        if not all(math.isfinite(number) for row in (self.positions, *curves) for number in row):
-            raise ValueError(f"{self.name} holds a number that is not finite")
-        if any(a >= b for a, b in pairwise(self.positions)):
-            raise ValueError(f"the points of {self.name} do not ascend")
-        span = self.positions[-1] - self.positions[0]
-        if self.period is not None and not 0.0 < span * (1.0 - ROUNDING) <= self.period < math.inf:
-            raise ValueError(f"{self.name} is longer than the {self.period:g} {self.over_unit} after which it repeats")
+    @classmethod
+    def of(
+        cls,
+        axis: str,
+        over: str,
+        positions: Sequence[float],
+        positive: Sequence[float],
+        negative: Sequence[float] | None = None,
+        period: float | None = None,
+        unit: Unit = "mm",
+        over_unit: Unit = "mm",
+    ) -> CompensationTable:
+        """Return the table of these values; two equal columns serve both directions as one.
+
+        Raises
+        ------
+        ValueError
+            Points or values are not what a ``Curve`` takes.
+        """
+        sides = [positive] if negative is None or tuple(negative) == tuple(positive) else [positive, negative]
+        curves = (
+            Curve(
+                tuple(positions),
+                tuple(side),
+                Quantity("position", symbol(over_unit), over),
+                Quantity("correction", symbol(unit), axis),
+                period,
+                name_of(axis, over),
+            )
+            for side in sides
+        )
+        return cls(axis, over, *curves)
 
     @property
     def kind(self) -> str:
@@ -93,40 +94,50 @@ class CompensationTable:
     @property
     def name(self) -> str:
         """The table in words, as messages call it."""
-        over = "" if self.axis == self.over else f" over {self.over}"
-        return f"the {self.kind} table of {self.axis}{over}"
+        return name_of(self.axis, self.over)
+
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Points of both curves."""
+        return self.positive.x
+
+    @property
+    def period(self) -> float | None:
+        """It repeats after it; None: it does not."""
+        return self.positive.period
+
+    @property
+    def unit(self) -> Unit:
+        """``mm`` or ``deg``: of the corrections."""
+        return _UNITS[self.positive.of.unit]
+
+    @property
+    def over_unit(self) -> Unit:
+        """``mm`` or ``deg``: of the positions."""
+        return _UNITS[self.positive.over.unit]
 
     def __repr__(self) -> str:
         sides = "unilateral" if self.negative is None else "bilateral"
         span = f"{self.positions[0]:g} … {self.positions[-1]:g}"
         return f"CompensationTable({self.axis} over {self.over}, {len(self.positions)} points {span}, {sides})"
 
-    def curve(self, direction: int) -> tuple[float, ...]:
-        """Return the values for a direction of motion, +1 or −1."""
+    def curve(self, direction: int) -> Curve:
+        """Return the curve for a direction of motion, +1 or −1."""
         return self.positive if direction > 0 or self.negative is None else self.negative
 
-    def at(self, positions: npt.ArrayLike, direction: int = 1) -> Array:
-        """Return the corrections at positions of ``over``, any shape, moving in a direction (+1 or −1)."""
-        x = np.asarray(positions, dtype=float)
-        table = closed(self)
-        if table.period is not None:
-            start = table.positions[0]
-            folded = x - table.period * np.floor((x - start) / table.period)
-            x = np.where(folded < start + table.period, folded, start)
-        corrections: Array = np.interp(x, table.positions, table.curve(direction))
-        return corrections
+    def at(self, positions: Iterable[float], direction: int = 1) -> list[float]:
+        """Return the corrections at positions of ``over``, moving in a direction (+1 or −1)."""
+        return self.curve(direction).at(positions)
+
+    def mapped(self, change: Callable[[Curve], Curve]) -> CompensationTable:
+        """Return the table with all its curves changed."""
+        negative = None if self.negative is None else change(self.negative)
+        return CompensationTable(self.axis, self.over, change(self.positive), negative)
 
 
-def closed(table: CompensationTable) -> CompensationTable:
-    """Return the table with the way back to its first point as a point of its own, where it repeats."""
-    if table.period is None or table.positions[-1] - table.positions[0] >= table.period * (1.0 - ROUNDING):
-        return table
-    return replace(
-        table,
-        positions=(*table.positions, table.positions[0] + table.period),
-        positive=(*table.positive, table.positive[0]),
-        negative=None if table.negative is None else (*table.negative, table.negative[0]),
-    )
+def name_of(axis: str, over: str) -> str:
+    """Return a table in words: ``the cross table of Z over X``."""
+    return f"the leadscrew table of {axis}" if axis == over else f"the cross table of {axis} over {over}"
 
 
 def beginning_at(table: CompensationTable, start: float) -> CompensationTable:
@@ -137,29 +148,14 @@ def beginning_at(table: CompensationTable, start: float) -> CompensationTable:
     CannotHoldError
         If the table jumps where it begins again.
     """
-    assert table.period is not None
-    full = closed(table)
-    if any(full.curve(direction)[0] != full.curve(direction)[-1] for direction in (1, -1)):
-        if full.positions[0] == start:
-            return full
-        raise CannotHoldError(
-            f"{table.name} jumps at {full.positions[0]:g} {table.over_unit}: it cannot begin at {start:g}"
-        )
-    period = table.period
-    inside = {start + (position - start) % period for position in table.positions}
-    positions = tuple(sorted({start, *(position for position in inside if position < start + period), start + period}))
-    curves = [tuple(full.at(positions, direction).tolist()) for direction in (1, -1)]
-    negative = None if full.negative is None else curves[1]
-    return replace(full, positions=positions, positive=curves[0], negative=negative)
-
-
-def unilateral_if_equal(table: CompensationTable) -> CompensationTable:
-    """Return the table without a second curve where it is the same as the first."""
-    return replace(table, negative=None) if table.negative == table.positive else table
+    begins = table.positions[0]
+    if begins != start and any(table.curve(direction).jumps for direction in (1, -1)):
+        raise CannotHoldError(f"{table.name} jumps at {begins:g} {table.over_unit}: it cannot begin at {start:g}")
+    return table.mapped(lambda curve: curve.beginning_at(start))
 
 
 class Difference(NamedTuple):
-    """The largest difference of two tables: how much (µm or m°), at which position, in which direction (±1)."""
+    """The largest difference of two tables: how much (µm or ″), at which position, in which direction (±1)."""
 
     size: float
     position: float
@@ -167,25 +163,7 @@ class Difference(NamedTuple):
 
 
 def largest_difference(one: CompensationTable, other: CompensationTable) -> Difference:
-    """Compare two tables at all their points, between them and beyond their ends, in both directions."""
-    x = _places(one, other)
-    worst = Difference(-1.0, 0.0, 1)
-    for direction in (1, -1):
-        gaps = np.abs(one.at(x, direction) - other.at(x, direction))
-        place = int(np.argmax(gaps))
-        if gaps[place] * 1e3 > worst.size:
-            worst = Difference(float(gaps[place]) * 1e3, float(x[place]), direction)
-    return worst
-
-
-def _places(one: CompensationTable, other: CompensationTable) -> Array:
-    points = np.unique(np.concatenate([one.positions, other.positions]))
-    low, high = points[0], points[-1]
-    margin = max(BEYOND * (high - low), 1.0)
-    x = np.union1d(points, np.linspace(low - margin, high + margin, DENSE))
-    for table in (one, other):
-        if table.period is not None and table.positive[0] != closed(table).positive[-1]:
-            # A table that jumps where it begins again has two values there: stay beside the jump.
-            phase = np.abs((x - table.positions[0]) / table.period - np.round((x - table.positions[0]) / table.period))
-            x = x[phase > 1e-9]
-    return x
+    """Compare two tables in both directions."""
+    gaps = [(one.curve(direction).largest_gap(other.curve(direction)), direction) for direction in (1, -1)]
+    (size, position), direction = max(gaps, key=lambda gap: gap[0].size)
+    return Difference(one.positive.of.factor * size, position, direction)

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..engine.motion import Array
 from ..model.machine import Machine
+from ..model.quantity import shown
 from .trials import TCP, VOLUMETRIC, Cycles, Trial, name_of
 
-MILLI = 1e3
 BEFORE, AFTER = 10, 120
 """Cycles around a reversal of the setpoint in which the quadrant peak is looked for."""
 
@@ -30,7 +30,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The error of one axis, or of the tool tip, in one trial, in µm or 0.001°.
+    """The error of one axis, or of the tool tip, in one trial, in µm or ″.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Outcome:
     axis : str
         Its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off.
     unit : str
-        ``µm`` or ``0.001°``.
+        ``µm`` or ``″``.
     cycles : array of int
         The cycles that count.
     without, compensated : array, shape as cycles
@@ -81,26 +81,29 @@ class Outcome:
 
 def outcomes(machine: Machine, trials: Sequence[Trial], records: Sequence[tuple[Record, Record]]) -> Iterator[Outcome]:
     """Yield the error of each axis in each trial; ``records``: of the runs without and with compensation."""
-    units = {name_of(axis): "µm" if axis.unit == "mm" else "0.001°" for axis in machine.axes}
+    units = {name_of(axis): shown(axis.unit) for axis in machine.axes}
     for trial, (without, compensated) in zip(trials, records, strict=True):
         if trial.kind == VOLUMETRIC:
-            yield from _of_tip(trial, without, compensated, [name for name, unit in units.items() if unit == "µm"])
+            yield from _of_tip(
+                trial, without, compensated, [name_of(axis) for axis in machine.axes if axis.unit == "mm"]
+            )
             continue
         for axis, cycles in trial.watched.items():
-            place = trial.place(axis)
-            errors = [MILLI * (record.true_position[axis] - place)[cycles] for record in (without, compensated)]
-            following = MILLI * float(np.max(np.abs(compensated.following_error[axis][cycles])))
-            yield Outcome(trial, axis, units[axis], cycles, errors[0], errors[1], following)
+            place, (factor, unit) = trial.place(axis), units[axis]
+            errors = [factor * (record.true_position[axis] - place)[cycles] for record in (without, compensated)]
+            following = factor * float(np.max(np.abs(compensated.following_error[axis][cycles])))
+            yield Outcome(trial, axis, unit, cycles, errors[0], errors[1], following)
 
 
 def _of_tip(trial: Trial, without: Record, compensated: Record, linear: Sequence[str]) -> Iterator[Outcome]:
     cycles = trial.watched[TCP]
-    errors = [MILLI * record.tip_error[cycles] for record in (without, compensated)]
-    following = MILLI * max(float(np.max(np.abs(compensated.following_error[name][cycles]))) for name in linear)
+    factor, unit = shown("mm")
+    errors = [factor * record.tip_error[cycles] for record in (without, compensated)]
+    following = factor * max(float(np.max(np.abs(compensated.following_error[name][cycles]))) for name in linear)
     for place, k in enumerate("xyz"):
-        yield Outcome(trial, f"{TCP} {k}", "µm", cycles, errors[0][:, place], errors[1][:, place], following)
+        yield Outcome(trial, f"{TCP} {k}", unit, cycles, errors[0][:, place], errors[1][:, place], following)
     distances = [np.linalg.norm(error, axis=1) for error in errors]
-    yield Outcome(trial, TCP, "µm", cycles, distances[0], distances[1], following)
+    yield Outcome(trial, TCP, unit, cycles, distances[0], distances[1], following)
 
 
 def table(results: Sequence[Outcome]) -> str:

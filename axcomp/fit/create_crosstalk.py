@@ -13,21 +13,23 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.crosstalk import Crosstalk, CrosstalkTest
+from ..kinds import Crosstalk, CrosstalkTest
 from ..measurement.columns import LENGTHS, Column, read_columns
 from ..measurement.positioning import TARGET_DIGITS, whole_runs
+from ..model.quantity import shown
+from ..plot.style import labelled
 from .creation import (
     LEFT_OUT,
     MEASURED,
     PREDICTED,
-    ROUNDING,
     SPREAD_LABELS,
-    THOUSANDTHS,
     CannotCreateError,
     Creation,
     Options,
     chosen_points,
     leave_one_run_out,
+    listed,
+    lost_by_rounding,
     rounded,
     spread_figures,
 )
@@ -51,7 +53,8 @@ COLUMNS = (
 TESTS_MAX = 15
 """Tests a list holds (P-COMP-00083)."""
 
-UNIT = "µm"
+UNIT, LOST = "µm", lost_by_rounding("mm")
+"""Of deviations, and how much of it rounding costs."""
 CASES = ("accelerate_positive", "accelerate_negative", "decelerate_positive", "decelerate_negative")
 _CHOICES_MAX = 20_000
 
@@ -104,8 +107,7 @@ def read_acceleration_tests(path: str | Path) -> AccelerationTests:
         The file cannot be read, or a line of it.
     """
     columns = read_columns(Path(path), COLUMNS)
-    none = np.zeros(len(columns.lines))
-    places = [np.round(columns.values.get(name, none) * 1e-3, TARGET_DIGITS) for name in ("position1", "position2")]
+    places = [np.round(columns.positions(name), TARGET_DIGITS) for name in ("position1", "position2")]
     return AccelerationTests(
         np.column_stack(places),
         columns.values["acceleration"],
@@ -160,7 +162,7 @@ def create_crosstalk(tests: AccelerationTests, target: TargetList, options: Opti
 
     def make(some: AccelerationTests) -> _Model:
         thinned = _thinned(_fitted(some, largest, both), mode, options.bound)
-        return replace(thinned, corrections=rounded(thinned.corrections / THOUSANDTHS) * THOUSANDTHS)
+        return replace(thinned, corrections=listed(thinned.corrections, "mm"))
 
     model = make(tests)
     figures = {
@@ -214,7 +216,7 @@ def _adaptation(options: Options, target: TargetList, i: int) -> int:
 
 def _test(place: Array, corrections: Array, both: bool) -> CrosstalkTest:
     used = [i for i in range(4) if both or i % 2 == 0]
-    values = rounded(corrections / THOUSANDTHS)
+    values = rounded(corrections / shown("mm").factor)
     return CrosstalkTest(*rounded(place).tolist(), **{CASES[i]: float(values[i]) for i in used})
 
 
@@ -253,10 +255,10 @@ def _thinned(model: _Model, mode: int, bound: float | None) -> _Model:
     count = len(model.places)
     if mode == 1 or (bound is None and count <= TESTS_MAX):
         return model
-    if bound is not None and bound < ROUNDING:
-        raise CannotCreateError(f"values are rounded to {2 * ROUNDING:g} {UNIT}, so {bound:g} {UNIT} cannot be kept")
+    if bound is not None and bound < LOST:
+        raise CannotCreateError(f"values are rounded to {2 * LOST:g} {UNIT}, so {bound:g} {UNIT} cannot be kept")
     if mode == 2:
-        places = chosen_points(model.places[:, 0], model.corrections.T, TESTS_MAX, bound, UNIT)
+        places = chosen_points(model.places[:, 0], model.corrections.T, TESTS_MAX, bound, UNIT, LOST)
         return replace(model, places=model.places[places], corrections=model.corrections[places])
     axes = [np.unique(model.places[:, i]) for i in range(2)]
     if len(axes[0]) * len(axes[1]) != count:
@@ -267,7 +269,7 @@ def _thinned(model: _Model, mode: int, bound: float | None) -> _Model:
     for chosen in _choices(axes):
         candidate = _at_places(model, chosen)
         off = _off(candidate, model)
-        if bound is not None and off > bound - ROUNDING:
+        if bound is not None and off > bound - LOST:
             continue
         # Within a bound fewest places first, without one least deviation first.
         rank = (float(len(candidate.places)), off) if bound is not None else (off, float(len(candidate.places)))
@@ -329,7 +331,5 @@ def _draw(ax: Axes, tests: AccelerationTests, model: _Model) -> None:
     ax.plot(tests.accelerations, tests.deviations, ".", color="#c4511a", ms=5, label="measured")
     ax.plot(tests.accelerations, left, ".", color="#0b62a4", ms=5, label="predicted")
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
-    ax.set_xlabel("acceleration of the master [mm/s²]", fontsize=11)
-    ax.set_ylabel(f"deviation of the slave [{UNIT}]", fontsize=11)
-    ax.grid(visible=True, color="0.9", lw=0.7)
+    labelled(ax, "", "acceleration of the master [mm/s²]", f"deviation of the slave [{UNIT}]")
     ax.legend(loc="best", fontsize=10)

@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.cross import Cross
-from ..kinds.leadscrew import Leadscrew
+from ..kinds import Cross, Leadscrew
 from ..measurement.iso230 import SYMBOLS, evaluate
 from ..measurement.positioning import Positioning
-from ..plot.iso230 import DOWN, UP
+from ..model.curve import Curve
+from ..model.quantity import Quantity, shown, symbol
+from ..plot.style import DOWN, UP, labelled
 from .creation import (
     LEFT_OUT,
     MEASURED,
     PREDICTED,
-    THOUSANDTHS,
     CannotCreateError,
     Creation,
     Options,
     chosen_points,
     leave_one_run_out,
+    listed,
+    lost_by_rounding,
+    put_on_top,
     rounded,
 )
 from .target_list import TargetList
@@ -41,29 +42,24 @@ SHOWN = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class Curves:
-    """A table over one position, for each direction.
+Sides = tuple[Curve, Curve]
+"""Errors over one position in positive and in negative direction, µm or ″."""
 
-    Attributes
-    ----------
-    positions : array, shape (m,)
-        Ascending, mm or °.
-    values : array, shape (2, m)
-        In positive and in negative direction, µm or 0.001°.
-    period : float or None
-        Positions repeat after it.
-    """
 
-    positions: Array
-    values: Array
-    period: float | None = None
+def _sides(positions: Array, values: Array, deviating: str, period: float | None = None) -> Sides:
+    """Return errors (2, m), in µm or ″, of an axis that counts in ``deviating``; outside the end values hold."""
+    if period is not None and np.ptp(positions) > period + _SPAN_TOLERANCE:
+        raise CannotCreateError(f"a modulo table spans {period:g}° at most, not {np.ptp(positions):g}°")
+    over, of = Quantity("position", "mm or °"), Quantity("error", shown(deviating).unit)
+    x = tuple(positions.tolist())
+    up, down = (Curve(x, tuple(side), over, of, period) for side in values.tolist())
+    return up, down
 
-    def at(self, positions: Array, directions: npt.NDArray[np.int64]) -> Array:
-        """Return the values at positions; outside the end values hold."""
-        up, down = (np.interp(positions, self.positions, side, period=self.period) for side in self.values)
-        result: Array = np.where(directions > 0, up, down)
-        return result
+
+def _at(sides: Sides, readings: Positioning) -> Array:
+    """Return the errors at readings, of the direction of each."""
+    up, down = (side.at(readings.targets) for side in sides)
+    return np.where(readings.directions > 0, up, down)
 
 
 def create_leadscrew(measurement: Positioning, target: TargetList, options: Options | None = None) -> Creation:
@@ -81,26 +77,23 @@ def create_leadscrew(measurement: Positioning, target: TargetList, options: Opti
     target.check_unit(measurement.unit)
     period = _period(target)
     both = not options.one_sided and set(measurement.directions) == set(DIRECTIONS)
-    before = target.present("leadscrew") if options.on_top else None
-    if options.on_top and before is None:
-        raise CannotCreateError("no leadscrew compensation of this axis acts, so nothing can be put on top of it")
-    old = None
+    before = put_on_top(target, "leadscrew", options)
+    old, factor = None, shown(measurement.deviating).factor
     if before is not None:
-        sides = (before.positive, before.negative or before.positive)
-        old = Curves(np.array(before.positions), np.array(sides) * THOUSANDTHS, period if before.modulo else None)
+        values = factor * np.array((before.positive, before.negative or before.positive))
+        old = _sides(np.array(before.positions), values, measurement.deviating, period if before.modulo else None)
     capacity = options.max_points or target.capacity("kw.ssfk.max_points")
 
-    def make(readings: Positioning) -> Curves:
+    def make(readings: Positioning) -> Sides:
         positions, means = _means(readings, both)
         if period is not None:
             means = _closed(positions, means, period)
-        return _table(Curves(positions, means, period), old, capacity, options.bound, measurement.deviation_unit)
+        measured = _sides(positions, means, measurement.deviating, period)
+        return _table(measured, old, capacity, options.bound, measurement)
 
     table = make(measurement)
-    if table.period is not None and np.ptp(table.positions) > table.period + _SPAN_TOLERANCE:
-        raise CannotCreateError(f"a modulo table spans {table.period:g}° at most, not {np.ptp(table.positions):g}°")
-    up, down = (tuple(side.tolist()) for side in rounded(table.values / THOUSANDTHS))
-    compensation = Leadscrew(tuple(table.positions.tolist()), up, down if both else None)
+    up, down = (tuple(rounded(np.array(side.y) / factor).tolist()) for side in table)
+    compensation = Leadscrew(table[0].x, up, down if both else None)
     return _creation(compensation, measurement, target, options, make, old, capacity)
 
 
@@ -119,22 +112,21 @@ def create_cross(measurement: Positioning, target: TargetList, options: Options 
     master = options.masters[0] or target.values.integer("kw.crosscomp.master_ax_nr")
     if not master:
         raise CannotCreateError("the list does not say which axis is the master (kw.crosscomp.master_ax_nr)")
-    before = target.present("cross") if options.on_top else None
-    if options.on_top and before is None:
-        raise CannotCreateError("no cross compensation of this axis acts, so nothing can be put on top of it")
-    old = None
+    before = put_on_top(target, "cross", options)
+    old, factor = None, shown(measurement.deviating).factor
     if before is not None:
         # Curves hold errors, the list corrections.
-        old = Curves(np.array(before.positions), np.tile(before.corrections, (2, 1)) * -THOUSANDTHS)
+        values = -factor * np.tile(before.corrections, (2, 1))
+        old = _sides(np.array(before.positions), values, measurement.deviating)
     capacity = options.max_points or target.capacity("kw.crosscomp.max_points")
 
-    def make(readings: Positioning) -> Curves:
+    def make(readings: Positioning) -> Sides:
         positions, means = _means(readings, both=False)
-        return _table(Curves(positions, means), old, capacity, options.bound, measurement.deviation_unit)
+        return _table(_sides(positions, means, measurement.deviating), old, capacity, options.bound, measurement)
 
     table = make(measurement)
-    corrections = rounded(-table.values[0] / THOUSANDTHS)
-    compensation = Cross(master, tuple(table.positions.tolist()), tuple(corrections.tolist()))
+    corrections = rounded(-np.array(table[0].y) / factor)
+    compensation = Cross(master, table[0].x, tuple(corrections.tolist()))
     return _creation(compensation, measurement, target, options, make, old, capacity)
 
 
@@ -174,15 +166,15 @@ def _closed(positions: Array, means: Array, period: float) -> Array:
     return means
 
 
-def _table(measured: Curves, old: Curves | None, capacity: int, bound: float | None, unit: str) -> Curves:
+def _table(measured: Sides, old: Sides | None, capacity: int, bound: float | None, measurement: Positioning) -> Sides:
     """Return what a list will hold: thinned, rounded, on top of an old table where there is one."""
-    positions, values = measured.positions, measured.values
+    positions, values = np.array(measured[0].x), np.array([side.y for side in measured])
     if old is not None:
-        positions = np.union1d(positions, rounded(old.positions))
-        up, down = (np.full(len(positions), d) for d in DIRECTIONS)
-        values = np.array([measured.at(positions, d) + old.at(positions, d) for d in (up, down)])
-    places = chosen_points(positions, values, capacity, bound, unit)
-    return Curves(positions[places], rounded(values[:, places] / THOUSANDTHS) * THOUSANDTHS, measured.period)
+        positions = np.union1d(positions, rounded(np.array(old[0].x)))
+        values = np.array([side.at(positions) for side in measured]) + [side.at(positions) for side in old]
+    unit = measurement.deviating
+    chosen = chosen_points(positions, values, capacity, bound, measurement.deviation_unit, lost_by_rounding(unit))
+    return _sides(positions[chosen], listed(values[:, chosen], unit), unit, measured[0].period)
 
 
 def _creation(
@@ -190,16 +182,16 @@ def _creation(
     measurement: Positioning,
     target: TargetList,
     options: Options,
-    make: Callable[[Positioning], Curves],
-    old: Curves | None,
+    make: Callable[[Positioning], Sides],
+    old: Sides | None,
     capacity: int,
 ) -> Creation:
     kind = "leadscrew" if isinstance(compensation, Leadscrew) else "cross"
 
-    def left(table: Curves, readings: Positioning) -> Array:
-        removed = table.at(readings.targets, readings.directions)
+    def left(table: Sides, readings: Positioning) -> Array:
+        removed = _at(table, readings)
         if old is not None:
-            removed = removed - old.at(readings.targets, readings.directions)
+            removed = removed - _at(old, readings)
         return readings.deviations - removed
 
     table = make(measurement)
@@ -223,7 +215,7 @@ def _creation(
         compensation=compensation,
         path=target.path,
         data=target.with_compensation(kind, compensation, options.max_points),
-        points=len(table.positions),
+        points=len(table[0].x),
         capacity=capacity,
         deviation=_deviation(table, old, measurement, _is_bilateral(compensation)),
         unit=measurement.deviation_unit,
@@ -242,20 +234,16 @@ def _is_bilateral(compensation: Leadscrew | Cross) -> bool:
     return isinstance(compensation, Leadscrew) and compensation.negative is not None
 
 
-def _deviation(table: Curves, old: Curves | None, measurement: Positioning, both: bool) -> float:
+def _deviation(table: Sides, old: Sides | None, measurement: Positioning, both: bool) -> float:
     """Return how far a table is from the means it was made of, at most."""
     positions, means = _means(measurement, both)
-    if table.period is not None:
-        means = _closed(positions, means, table.period)
-    worst = 0.0
-    for side, direction in zip(means, DIRECTIONS, strict=True):
-        directions = np.full(len(positions), direction)
-        wanted = side if old is None else side + old.at(positions, directions)
-        worst = max(worst, float(np.max(np.abs(table.at(positions, directions) - wanted))))
-    return worst
+    if table[0].period is not None:
+        means = _closed(positions, means, table[0].period)
+    wanted = means if old is None else means + [side.at(positions) for side in old]
+    return float(np.max(np.abs(np.array([side.at(positions) for side in table]) - wanted)))
 
 
-def _draw(ax: Axes, measurement: Positioning, remaining: Positioning, table: Curves, kind: str) -> None:
+def _draw(ax: Axes, measurement: Positioning, remaining: Positioning, table: Sides, kind: str) -> None:
     """Draw mean deviations, the table's points and what is left."""
     before, after = evaluate(measurement), evaluate(remaining)
     for colour, arrow, old, new in (
@@ -265,12 +253,9 @@ def _draw(ax: Axes, measurement: Positioning, remaining: Positioning, table: Cur
         if not np.all(np.isnan(old)):
             ax.plot(before.positions, old, "-", color=colour, lw=1.3, label=f"measured x̄{arrow}")
             ax.plot(before.positions, new, "--", color=colour, lw=1.1, label=f"predicted x̄{arrow}")
-    sides = table.values if np.ptp(table.values, axis=0).any() else table.values[:1]
-    for place, side in enumerate(sides):
+    for place, side in enumerate(table if table[0].y != table[1].y else table[:1]):
         label = "table" if kind == "leadscrew" else "table × (−1)"
-        ax.plot(table.positions, side, ".", color="0.2", ms=5, label=None if place else label)
+        ax.plot(side.x, side.y, ".", color="0.2", ms=5, label=None if place else label)
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
-    ax.set_xlabel(f"position [{'mm' if measurement.unit == 'mm' else '°'}]", fontsize=11)
-    ax.set_ylabel(f"deviation [{measurement.deviation_unit}]", fontsize=11)
-    ax.grid(visible=True, color="0.9", lw=0.7)
+    labelled(ax, "", f"position [{symbol(measurement.unit)}]", f"deviation [{measurement.deviation_unit}]")
     ax.legend(loc="best", ncols=2, fontsize=10)

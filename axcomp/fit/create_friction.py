@@ -11,9 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.friction import Friction
+from ..kinds import Friction
 from ..measurement.columns import Column, read_columns
 from ..measurement.positioning import whole_runs
+from ..plot.style import labelled
 from .creation import (
     LEFT_OUT,
     MEASURED,
@@ -206,7 +207,5 @@ def _draw(ax: Axes, readings: FrictionReadings, table: tuple[Array, Array]) -> N
     ax.plot(between, np.interp(between, *table), "-", color="#0b62a4", lw=1.4)
     ax.plot(*table, "o", color="#0b62a4", ms=4, label="table × scaling")
     ax.set_xscale("symlog", linthresh=1.0)
-    ax.set_xlabel("|velocity| [mm/s or °/s]", fontsize=11)
-    ax.set_ylabel(f"current [{UNIT}]", fontsize=11)
-    ax.grid(visible=True, color="0.9", lw=0.7)
+    labelled(ax, "", "|velocity| [mm/s or °/s]", f"current [{UNIT}]")
     ax.legend(loc="best", fontsize=10)

@@ -12,20 +12,24 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.plane import Plane
+from ..kinds import Plane
 from ..measurement.columns import ANGLES, LENGTHS, Column, read_columns
-from ..measurement.positioning import TARGET_DIGITS, angular, thousandth, unit_of, whole_runs
+from ..measurement.positioning import TARGET_DIGITS, angular, unit_of, whole_runs
+from ..model.grid import Grid
+from ..model.quantity import Quantity, shown
+from ..plot.style import labelled
 from .creation import (
     LEFT_OUT,
     MEASURED,
     PREDICTED,
-    ROUNDING,
     SPREAD_LABELS,
-    THOUSANDTHS,
     CannotCreateError,
     Creation,
     Options,
     leave_one_run_out,
+    listed,
+    lost_by_rounding,
+    put_on_top,
     rounded,
     spread_figures,
 )
@@ -57,7 +61,7 @@ class Flatness:
     runs : array of int, shape (n,)
         1 everywhere if there is one run only.
     deviations : array, shape (n,)
-        Actual − commanded, µm or 0.001°.
+        Actual − commanded, µm or ″.
     unit : str
         Unit of the slave: ``mm`` or ``deg``.
     source : str
@@ -116,8 +120,8 @@ def read_flatness(path: str | Path) -> Flatness:
     """
     columns = read_columns(Path(path), COLUMNS)
     return Flatness(
-        columns.values["master1"] * 1e-3,
-        columns.values["master2"] * 1e-3,
+        columns.positions("master1"),
+        columns.positions("master2"),
         whole_runs(columns),
         columns.values["deviation"],
         unit_of(angular(columns, "deviation")),
@@ -125,24 +129,22 @@ def read_flatness(path: str | Path) -> Flatness:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Grid:
-    """A table over two positions with equal distances: positions ``start + i · interval``, values (n2, n1)."""
+def _grid(x: Array, y: Array, values: Array, unit: str) -> Grid:
+    """Return deviations (n2, n1) in µm or ″ over the positions of the masters."""
+    over = (Quantity("position of master 1", "mm or °"), Quantity("position of master 2", "mm or °"))
+    rows = tuple(tuple(row) for row in values.tolist())
+    return Grid(tuple(x.tolist()), tuple(y.tolist()), rows, over, Quantity("deviation", shown(unit).unit))
 
-    start: tuple[float, float]
-    interval: tuple[float, float]
-    values: Array
 
-    def at(self, positions1: Array, positions2: Array) -> Array:
-        """Return the bilinear values at places (n,); outside, the edge holds."""
-        weights = [
-            hats(start + interval * np.arange(count), positions)
-            for start, interval, count, positions in zip(
-                self.start, self.interval, self.values.shape[::-1], (positions1, positions2), strict=True
-            )
-        ]
-        result: Array = np.sum((weights[0] @ self.values.T) * weights[1], axis=1)
-        return result
+def _errors(plane: Plane, unit: str) -> Grid:
+    """Return the errors that a table of the list removes: its corrections with the other sign."""
+    values = -shown(unit).factor * np.array(plane.corrections)
+    x, y = (np.arange(float(count)) for count in values.shape[::-1])
+    return _grid(plane.start1 + plane.interval1 * x, plane.start2 + plane.interval2 * y, values, unit)
+
+
+def _at(grid: Grid, positions1: Array, positions2: Array) -> Array:
+    return np.array([grid.at(x, y) for x, y in zip(positions1.tolist(), positions2.tolist(), strict=True)])
 
 
 def create_plane(measurement: Flatness, target: TargetList, options: Options | None = None) -> Creation:
@@ -161,30 +163,25 @@ def create_plane(measurement: Flatness, target: TargetList, options: Options | N
     masters = [options.masters[i] or target.values.integer(f"kw.crosscomp2.master{i + 1}_ax_nr") for i in range(2)]
     if not all(masters):
         raise CannotCreateError("the list does not say which axes are the masters (kw.crosscomp2.master1_ax_nr, …)")
-    before = target.present("plane") if options.on_top else None
-    if options.on_top and before is None:
-        raise CannotCreateError("no plane compensation of this axis acts, so nothing can be put on top of it")
-    old = None
-    if before is not None:
-        start, interval = (before.start1, before.start2), (before.interval1, before.interval2)
-        old = Grid(start, interval, np.array(before.corrections) * -THOUSANDTHS)
+    before = put_on_top(target, "plane", options)
+    factor, unit = shown(measurement.unit)
+    old = None if before is None else _errors(before, measurement.unit)
     reserved = options.max_points or target.values.integer("kw.crosscomp2.max_points")
     given = bool(options.max_points) or target.values.given("kw.crosscomp2.max_points")
     capacity = reserved or target.capacity("kw.crosscomp2.max_points")
     each = capacity if given and reserved else POINTS_EACH
-    unit = thousandth(measurement.unit)
 
     def make(readings: Flatness) -> Grid:
         targets1, targets2, means = readings.means()
         if old is not None:
             all1, all2 = (a.ravel() for a in np.meshgrid(targets1, targets2))
-            means = means + old.at(all1, all2).reshape(means.shape)
-        return _fitted(targets1, targets2, means, capacity, each, options.bound, unit)
+            means = means + _at(old, all1, all2).reshape(means.shape)
+        return _fitted(targets1, targets2, means, capacity, each, options.bound, measurement.unit)
 
     def left(table: Grid, readings: Flatness) -> Array:
-        removed = table.at(readings.positions1, readings.positions2)
+        removed = _at(table, readings.positions1, readings.positions2)
         if old is not None:
-            removed = removed - old.at(readings.positions1, readings.positions2)
+            removed = removed - _at(old, readings.positions1, readings.positions2)
         return readings.deviations - removed
 
     table = make(measurement)
@@ -206,16 +203,18 @@ def create_plane(measurement: Flatness, target: TargetList, options: Options | N
     compensation = Plane(
         masters[0],
         masters[1],
-        *table.start,
-        *table.interval,
-        tuple(tuple(row) for row in rounded(-table.values / THOUSANDTHS).tolist()),
+        start1=table.x[0],
+        start2=table.y[0],
+        interval1=float(rounded(np.diff(table.x[:2]))[0]),
+        interval2=float(rounded(np.diff(table.y[:2]))[0]),
+        corrections=tuple(tuple(row) for row in rounded(-np.array(table.values) / factor).tolist()),
     )
     return Creation(
         kind="plane",
         compensation=compensation,
         path=target.path,
         data=target.with_compensation("plane", compensation, options.max_points),
-        points=table.values.size,
+        points=len(table.x) * len(table.y),
         capacity=capacity,
         deviation=float(np.max(np.abs(mean_left))),
         unit=unit,
@@ -233,26 +232,26 @@ def _fitted(
     fits = [_Fits(targets, each) for targets in (targets1, targets2)]
 
     def table(n1: int, n2: int) -> Grid:
-        start, interval = (fits[0].start, fits[1].start), (fits[0].interval(n1), fits[1].interval(n2))
         values = fits[1].solve(n2) @ means @ fits[0].solve(n1).T
-        return Grid(start, interval, rounded(values / THOUSANDTHS) * THOUSANDTHS)
+        return _grid(fits[0].points(n1), fits[1].points(n2), listed(values, unit), unit)
 
     def off(n1: int, n2: int) -> float:
         return float(np.max(np.abs(fits[1].smooth(n2) @ means @ fits[0].smooth(n1).T - means)))
 
-    counts1, counts2 = fits[0].counts, fits[1].counts
+    counts1, counts2, lost = fits[0].counts, fits[1].counts, lost_by_rounding(unit)
     if bound is None:
         pairs = [
             (n1, max(n2 for n2 in counts2 if n1 * n2 <= capacity)) for n1 in counts1 if n1 * counts2[0] <= capacity
         ]
         if not pairs:
             raise CannotCreateError(f"the list takes {capacity} points, too few for a plane")
-        if pairs[-1] == (len(targets1), len(targets2)) and off(*pairs[-1]) < ROUNDING:
+        if pairs[-1] == (len(targets1), len(targets2)) and off(*pairs[-1]) < lost:
             return table(*pairs[-1])
         return table(*min(pairs, key=lambda pair: off(*pair)))
-    if bound < ROUNDING:
-        raise CannotCreateError(f"values are rounded to {2 * ROUNDING:g} {unit}, so {bound:g} {unit} cannot be kept")
-    within = bound - ROUNDING
+    small = shown(unit).unit
+    if bound < lost:
+        raise CannotCreateError(f"values are rounded to {2 * lost:g} {small}, so {bound:g} {small} cannot be kept")
+    within: float = bound - lost
 
     def fits_within(n1: int, n2: int) -> bool:
         return off(n1, n2) <= within
@@ -262,7 +261,7 @@ def _fitted(
     fewest = min(pairs, key=lambda pair: pair[0] * pair[1], default=None)
     if fewest is None or fewest[0] * fewest[1] > capacity:
         need = "more points than were measured" if fewest is None else f"{fewest[0]} × {fewest[1]} points"
-        raise CannotCreateError(f"{bound:g} {unit} take {need}, but the list has room for {capacity}")
+        raise CannotCreateError(f"{bound:g} {small} take {need}, but the list has room for {capacity}")
     return table(*fewest)
 
 
@@ -290,8 +289,12 @@ class _Fits:
         """Return the distance of so many points over the measured range."""
         return float(rounded(np.array([np.ptp(self._targets) / (count - 1)]))[0])
 
+    def points(self, count: int) -> Array:
+        """Return so many points from the first target on, shape (count,)."""
+        return self.start + self.interval(count) * np.arange(float(count))
+
     def _hats(self, count: int) -> Array:
-        return hats(self.start + self.interval(count) * np.arange(count, dtype=float), self._targets)
+        return hats(self.points(count), self._targets)
 
     def _is_determined(self, count: int) -> bool:
         return self.interval(count) > 0.0 and int(np.linalg.matrix_rank(self._hats(count))) == count
@@ -315,7 +318,7 @@ class _Fits:
 def _draw(ax: Axes, measurement: Flatness, left: Array) -> None:
     """Draw what is left of the means as a map."""
     targets1, targets2, means = measurement.means()
-    unit = thousandth(measurement.unit)
+    unit = shown(measurement.unit).unit
     mesh = ax.pcolormesh(targets1, targets2, left, cmap="RdBu_r", shading="nearest")
     limit = float(np.max(np.abs(left)))
     mesh.set_clim(-limit, limit)
@@ -324,6 +327,5 @@ def _draw(ax: Axes, measurement: Flatness, left: Array) -> None:
         figure.colorbar(mesh, ax=ax, label=f"predicted deviation [{unit}]")
     if np.ptp(means) > 0.0:
         ax.clabel(ax.contour(targets1, targets2, means, colors="0.3", linewidths=0.7), fontsize=8)
-    ax.set_title(f"What is left; lines: measured deviation [{unit}]", fontsize=12)
-    ax.set_xlabel("position of master 1 [mm or °]", fontsize=11)
-    ax.set_ylabel("position of master 2 [mm or °]", fontsize=11)
+    title = f"What is left; lines: measured deviation [{unit}]"
+    labelled(ax, title, "position of master 1 [mm or °]", "position of master 2 [mm or °]").grid(visible=False)

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engine.motion import Array
+from ..lists.saving import write_whole
+from ..model.quantity import shown
 from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric, is_angle
+from ..plot.style import labelled
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, leave_one_run_out
 from .volumetric_identification import NODES_MAX, Identification, Identifier
 from .volumetric_model import TcpDeviations
@@ -50,7 +53,7 @@ class VolumetricCreation(Creation):
         """Write the parameter file, in its place or elsewhere, and the list if it is new; return the former's place."""
         target = super().write(path)
         if self.list_data is not None and path is None:
-            self.list_path.write_bytes(self.list_data)
+            write_whole(self.list_path, self.list_data)
         return target
 
     def errors(self) -> list[dict[str, Any]]:
@@ -58,7 +61,7 @@ class VolumetricCreation(Creation):
         found = []
         rows = zip(self.identification.sought, self.identification.values, self.identification.uncertainty, strict=True)
         for sought, values, uncertainty in rows:
-            factor, unit = (1e6, "µrad") if is_angle(sought.name) else (1e3, "µm")
+            factor, unit = shown("rad" if is_angle(sought.name) else "mm")
             found.append(
                 {
                     "name": sought.name,
@@ -194,8 +197,6 @@ def _draw(ax: Axes, measured: Array, left: Array) -> None:
         amounts = np.sort(np.linalg.norm(deviations, axis=1))
         share = 100.0 * np.arange(1, len(amounts) + 1) / len(amounts)
         ax.plot(amounts, share, "-", color=colour, lw=1.6, label=label)
-    ax.set_xlabel(f"deviation of the tool tip, amount [{UNIT}]", fontsize=11)
-    ax.set_ylabel("readings that deviate less [%]", fontsize=11)
+    labelled(ax, "", f"deviation of the tool tip, amount [{UNIT}]", "readings that deviate less [%]")
     ax.set_ylim(0.0, 101.0)
-    ax.grid(visible=True, color="0.9", lw=0.7)
     ax.legend(loc="lower right", fontsize=10)

@@ -12,6 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..lists.saving import write_whole
+from ..model.quantity import shown
+from .target_list import TargetList
 from .thinning import Places, closest, deviation, fewest
 
 if TYPE_CHECKING:
@@ -19,12 +22,6 @@ if TYPE_CHECKING:
 
 RESOLUTION = 1e-4
 """What positions and corrections in a list count in, mm or °."""
-
-THOUSANDTHS = 1e3
-"""µm in a mm, 0.001° in a °."""
-
-ROUNDING = 0.5 * RESOLUTION * THOUSANDTHS
-"""How far rounding changes a value, µm or 0.001°."""
 
 MEASURED, PREDICTED, LEFT_OUT = "measured", "predicted", "leave one run out"
 """States that figures are given for: without the new table, with it, and each run with a table made of the others."""
@@ -106,9 +103,9 @@ class Creation:
     draw: Callable[[Axes], None] = field(repr=False, default=lambda _: None)
 
     def write(self, path: str | Path | None = None) -> Path:
-        """Write the list, in its place or elsewhere; return where it is."""
+        """Write the list where it was read or elsewhere, whole or not at all; return where it is."""
         target = self.path if path is None else Path(path)
-        target.write_bytes(self.data)
+        write_whole(target, self.data)
         return target
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -137,14 +134,39 @@ class Creation:
         }
 
 
+def put_on_top(target: TargetList, kind: str, options: Options) -> Any:
+    """Return the compensation that acted during the measurement, None where none is said to have.
+
+    Raises
+    ------
+    CannotCreateError
+        One is said to have acted, but none of the kind does.
+    """
+    before = target.present(kind) if options.on_top else None
+    if options.on_top and before is None:
+        raise CannotCreateError(f"no {kind} compensation of this axis acts, so nothing can be put on top of it")
+    return before
+
+
 def rounded(values: Array) -> Array:
     """Return positions or corrections in mm or ° as a list can hold them; no −0."""
     result: Array = np.round(values / RESOLUTION) * RESOLUTION
     return np.round(result, 10) + 0.0
 
 
+def lost_by_rounding(unit: str) -> float:
+    """Return how far rounding changes a value in ``mm`` or ``deg``, in µm or ″."""
+    return 0.5 * RESOLUTION * shown(unit).factor
+
+
+def listed(values: Array, unit: str) -> Array:
+    """Return corrections in µm or ″, of an axis that counts in ``mm`` or ``deg``, as a list can hold them."""
+    factor = shown(unit).factor
+    return rounded(values / factor) * factor
+
+
 def chosen_points(
-    positions: Array, curves: Array, capacity: int, bound: float | None, unit: str, rounding: float = ROUNDING
+    positions: Array, curves: Array, capacity: int, bound: float | None, unit: str, rounding: float
 ) -> Places:
     """Return the places of the points a table is to have.
 

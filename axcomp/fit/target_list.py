@@ -6,21 +6,18 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-from ..kinds import KINDS as _KINDS
+from ..kinds import KINDS
 from ..kinds.parameter import ListKind, Severity, key_of
-from ..lists import Reading, read_machine
+from ..lists import Document, Reading, read_machine
 from ..lists.axes import Axes, AxisSettings
 from ..lists.catalogue import CATALOGUE, parameter
 from ..lists.compensation import TableReader
-from ..lists.edit import edited
-from ..lists.files import Files
 from ..lists.findings import Findings
 from ..lists.format import Lines
-from ..lists.grammar import decode
-from ..lists.start_up import START_UP_NAME, find_lists
-from ..lists.values import ListValues, read_values
+from ..lists.start_up import START_UP_NAME
+from ..lists.values import ListValues
 from ..measurement.columns import MeasurementError
-from ..model.machine import Axis, AxisType, ModuloRange
+from ..model.machine import Axis
 
 _SETTINGS = {
     "max_points": "max_points",
@@ -69,11 +66,11 @@ class TargetList:
         """
         self.path = Path(path)
         self.exists = self.path.exists()
-        self._data = self._read() if self.exists else b""
-        text = decode(self._data)
-        if text is None:
-            raise MeasurementError(str(path), 0, "The list is no text.")
-        self.values = read_values(text, str(path), ListKind.COMPENSATION, Findings())
+        self.reading: Reading | None = None
+        self.axis: Axis | None = None
+        self.unit = ""
+        self._document = self._read() if self.exists else Document(path, kind=ListKind.COMPENSATION)
+        self.values = self._document.values
         written = self.values.integer("kopf.achs_nr")
         if not written and not number:
             sentence = "The list does not say which axis it is for (kopf.achs_nr); give the axis' logical number."
@@ -85,31 +82,31 @@ class TargetList:
         self._header = {} if written else {"kopf.achs_nr": str(self.number)}
         if name and not written:
             self._header["kopf.log_achs_name"] = f'"{name}"'
-        self.reading: Reading | None = None
-        self.axis: Axis | None = None
-        self.unit = ""
-        if self.exists:
-            self._find_machine()
+        if self.reading is not None:
+            self.axis = next((axis for axis in self.reading.machine.axes if axis.number == self.number), None)
+            if self.axis is not None and self._is_named():
+                self.unit = self.axis.unit
 
-    def _read(self) -> bytes:
-        try:
-            return self.path.read_bytes()
-        except OSError as error:
-            raise MeasurementError(str(self.path), 0, f"The list cannot be read: {error.strerror or error}.") from error
-
-    def _find_machine(self) -> None:
+    def _read(self) -> Document:
+        """Return the list, read with the machine whose start-up list beside it names it, else alone."""
+        if not self.path.is_file():
+            raise MeasurementError(str(self.path), 0, "The list cannot be read: it is no file.")
         siblings = self.path.parent.iterdir()
         start_up = next((entry for entry in siblings if entry.name.lower() == START_UP_NAME), None)
-        named = start_up is not None and self._is_named_in(start_up)
-        self.reading = read_machine(start_up if named and start_up is not None else self.path)
-        axes = self.reading.machine.axes
-        self.axis = next((axis for axis in axes if axis.number == self.number), None)
-        if named and self.axis is not None:
-            self.unit = self.axis.unit
+        self.reading = None if start_up is None else read_machine(start_up)
+        if self.reading is None or not self._is_named():
+            self.reading = read_machine(self.path)
+        document = next((one for path, one in self.reading.documents.items() if self._is_this(path)), None)
+        if document is None or not document.is_text:
+            about = next(finding for finding in self.reading.findings if self._is_this(finding.file))
+            raise MeasurementError(str(self.path), 0, about.message.replace("The file", "The list"))
+        same = document.kind is ListKind.COMPENSATION
+        return document if same else Document(self.path, document.data, ListKind.COMPENSATION)
 
-    def _is_named_in(self, start_up: Path) -> bool:
-        findings = Findings()
-        return any(self._is_this(named.path) for named in find_lists(start_up, Files(findings), findings).compensation)
+    def _is_named(self) -> bool:
+        """Tell whether the start-up list names this one."""
+        reading = self.reading
+        return reading is not None and reading.start_up is not None and any(map(self._is_this, reading.documents))
 
     def _is_this(self, file: str | Path) -> bool:
         return Path(file).resolve() == self.path.resolve()
@@ -121,9 +118,9 @@ class TargetList:
         about = [finding for finding in self.reading.findings if self._is_this(finding.file)]
         errors = sum(finding.severity is Severity.ERROR for finding in about)
         notes = [f"The list had {errors} errors before; axcomp check says which."] if errors else []
-        inactive = any(f.code in ("AXC-INACTIVE", "70495") and _KINDS[kind].prefix in f.parameter for f in about)
+        inactive = any(f.code in ("AXC-INACTIVE", "70495") and KINDS[kind].prefix in f.parameter for f in about)
         if inactive and self.present(kind) is None:
-            notes.append(f"{_KINDS[kind].activator.name} of the axis list has to be 1 for the table to act.")
+            notes.append(f"{KINDS[kind].activator.name} of the axis list has to be 1 for the table to act.")
         return notes
 
     def capacity(self, name: str) -> int:
@@ -156,7 +153,7 @@ class TargetList:
         ValueError
             A list cannot hold a value, or would not read back to what is meant.
         """
-        how = _KINDS[kind]
+        how = KINDS[kind]
         lines = Lines(ListKind.COMPENSATION)
         if max_points is not None:
             compensation = replace(compensation, max_points=max_points)
@@ -168,13 +165,13 @@ class TargetList:
         }
         keys = {key_of(name) for name in owned}
         new = [line for line in lines.text().split("\n") if key_of(line.partition(" ")[0]) in keys]
-        data = self._data
+        document = self._document.copy()
         if self._header:
             header = [f"{name:<40} {value}" for name, value in self._header.items()]
-            data = edited(data, header, self._header, "Axis", keep_row_comments=True)
-        data = edited(data, new, owned, how.title, self._rows_stay(kind, compensation))
-        self._check(kind, compensation, data, max_points is not None)
-        return data
+            document.replace_entries(header, self._header, "Axis")
+        document.replace_entries(new, owned, how.title, self._rows_stay(kind, compensation))
+        self._check(kind, compensation, document, max_points is not None)
+        return document.to_bytes()
 
     @staticmethod
     def _is_owned(name: str, kind: str, with_max_points: bool) -> bool:
@@ -185,7 +182,7 @@ class TargetList:
 
     def _rows_stay(self, kind: str, compensation: Any) -> bool:
         """Tell whether the rows of a table are for the same positions as before."""
-        before = self._parsed(kind, self.values)
+        before = self._parsed(kind, self.values, Findings())
         names = [name for name in _PLACES if hasattr(compensation, name)]
         return (
             type(before) is type(compensation)
@@ -193,23 +190,19 @@ class TargetList:
             and all(getattr(before, name) == getattr(compensation, name) for name in names)
         )
 
-    def _parsed(self, kind: str, values: ListValues) -> Any:
-        """Return the compensation that a list's values describe for a metric, translatory axis."""
-        findings = Findings()
-        axis = AxisSettings(self.number, type=AxisType.TRANSLATORY, modulo=self._modulo())
+    def _parsed(self, kind: str, values: ListValues, findings: Findings) -> Any:
+        """Return the compensation that values describe for the axis, whatever axes it refers to."""
         axes = Axes(findings, invent=True)
-        axes.add(axis, self.values.file, 0, "")
-        return _KINDS[kind].read(TableReader(values, axis, axes, findings))
+        for axis in () if self.reading is None else self.reading.axes.all():
+            axes.add(axis, values.file, 0, "")
+        if self.number not in axes:
+            axes.add(AxisSettings(self.number), values.file, 0, "")
+        return KINDS[kind].read(TableReader(values, axes.get(self.number), axes, findings))
 
-    def _modulo(self) -> ModuloRange | None:
-        return ModuloRange(-1e9, 1e9) if self.axis is None or self.axis.modulo is None else self.axis.modulo
-
-    def _check(self, kind: str, intended: Any, data: bytes, with_max_points: bool) -> None:
+    def _check(self, kind: str, intended: Any, document: Document, with_max_points: bool) -> None:
         """Read the new list and compare: a list with a damaged group could hide what is put into it."""
-        text = decode(data)
-        assert text is not None
-        values = read_values(text, str(self.path), ListKind.COMPENSATION, Findings())
-        found = self._parsed(kind, values)
+        findings = Findings()
+        found = self._parsed(kind, document.values, findings)
         if type(found) is type(intended):
             names = {field.name for field in fields(intended)}
             kept = {name for name in _SETTINGS.values() if name in names}
@@ -217,4 +210,5 @@ class TargetList:
                 kept.discard("max_points")
             if replace(intended, **{name: getattr(found, name) for name in kept}) == found:
                 return
-        raise ValueError(f"{self.path}: with the new {kind} table the list would not say what is meant; is it damaged?")
+        why = next((f.message for f in findings.all() if f.severity is Severity.ERROR), "is it damaged?")
+        raise ValueError(f"{self.path}: with the new {kind} table the list would not say what is meant; {why}")

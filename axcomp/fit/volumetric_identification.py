@@ -11,6 +11,7 @@ from scipy.optimize import least_squares
 
 from ..engine.motion import Array
 from ..engine.tcp_model import TcpModel
+from ..model.quantity import shown
 from ..model.volumetric import ERRORS, ErrorTable, Volumetric
 from .creation import CannotCreateError
 from .volumetric_basis import FULL_TURN, Redundancy, Selection, Sought, sought_errors
@@ -19,7 +20,7 @@ from .volumetric_model import TcpDeviations
 NODES_MAX = 11
 """Nodes of a component error unless more or fewer are asked for."""
 
-MICRO = 1e3
+MICRO = shown("mm").factor
 COVERAGE = 2.0
 """Factor k of expanded uncertainties."""
 

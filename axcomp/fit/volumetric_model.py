@@ -69,10 +69,10 @@ def read_tcp_deviations(path: str | Path) -> TcpDeviations:
         The file cannot be read, or a line of it.
     """
     columns = read_columns(Path(path), COLUMNS)
-    values, none = columns.values, np.zeros(len(columns.lines))
+    values = columns.values
     return TcpDeviations(
-        np.column_stack([values.get(letter.lower(), none) * 1e-3 for letter in LETTERS]),
-        values.get("tool_length", none) * 1e-3,
+        np.column_stack([columns.positions(letter.lower()) for letter in LETTERS]),
+        columns.positions("tool_length"),
         np.column_stack([values[f"d{letter.lower()}"] for letter in LINEAR]),
         whole_runs(columns),
         "".join(letter for letter in LETTERS if letter.lower() in values),

@@ -7,19 +7,18 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..kinds.parameter import ListKind, Severity
+from ..lists import Document
 from ..lists.axes import Axes
 from ..lists.catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
-from ..lists.edit import edited
 from ..lists.etalon import read_etalon, write_etalon
 from ..lists.files import Files
 from ..lists.findings import Finding, Findings
 from ..lists.isg_csv import read_isg_csv, write_isg_csv
 from ..lists.start_up import START_UP_NAME, MachineFiles, find_lists
-from ..lists.values import read_values
 from ..lists.volumetric_list import VolumetricReader
 from ..lists.volumetric_parameters import assemble
 from ..lists.volumetric_writer import blocks_of, format_volumetric_list, parameter_file
-from ..measurement.columns import MeasurementError, read_text
+from ..measurement.columns import MeasurementError
 from ..model.volumetric import COMPENSATIONS_MAX, FILES_MAX, Interpolation, Volumetric
 
 _FILE_NAME = "vol_comp[i].file_name"
@@ -54,7 +53,7 @@ class VolumetricTarget:
         """
         self.path = Path(path)
         self._exists = self.path.exists()
-        self._data = b""
+        self._document = Document(path, kind=ListKind.VOLUMETRIC)
         self._etalon = False
         self._splicing = False
         self._comments = ""
@@ -73,10 +72,12 @@ class VolumetricTarget:
     def _open(self) -> None:
         findings = Findings()
         files = Files(findings)
-        text = read_text(self.path)
-        self._data = self.path.read_bytes()
         lists, index = self._machine(files)
-        values = read_values(text, str(self.path), ListKind.VOLUMETRIC, findings)
+        document = files.document(self.path)
+        if document is None:
+            raise _unreadable(self.path, findings)
+        self._document = document
+        values = document.read_as(ListKind.VOLUMETRIC, findings)
         if lists.start_up is not None:
             self.reserved = lists.start_up.integer("vol_comp[i].max_records", index)
         axes = Axes(findings, invent=True)
@@ -97,10 +98,13 @@ class VolumetricTarget:
         default = (names[0] if names else f"{self.path.stem}.csv").replace("\\", "/")
         self.parameters = named or lists.folder / default
         if self.parameters.exists() and not self._etalon:
-            self._comments = _leading_comments(read_text(self.parameters))
+            parameters = files.document(self.parameters)
+            if parameters is None:
+                raise _unreadable(self.parameters, findings)
+            self._comments = _leading_comments(parameters.text)
 
     def _machine(self, files: Files) -> tuple[MachineFiles, int]:
-        """Return the machine the list belongs to, and its place there."""
+        """Return the machine the list belongs to, and its index there."""
         folder = self.path.parent
         start_up = next((entry for entry in folder.iterdir() if entry.name.lower() == START_UP_NAME), None)
         if start_up is not None:
@@ -145,7 +149,15 @@ class VolumetricTarget:
         if self._names_file:
             return None
         new = [f"{'file[0]':<40} {self.parameters.name}", f"{'file_format[0]':<40} {ISG_CSV}"]
-        return edited(self._data, new, ["file[j]", "file_format[j]"], "Parameters", True, ListKind.VOLUMETRIC)
+        document = self._document.copy()
+        document.replace_entries(new, ["file[j]", "file_format[j]"], "Parameters")
+        return document.to_bytes()
+
+
+def _unreadable(path: Path, findings: Findings) -> MeasurementError:
+    """Return what was found to be wrong with a file as a whole."""
+    about = next(finding for finding in findings.all() if finding.file == str(path))
+    return MeasurementError(str(path), 0, about.message)
 
 
 def _leading_comments(text: str) -> str:

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from ..interface.variable import Variable
 from ..interface.variables import Naming, identifier, variables_of
-from ..kinds.compiling import CompileError
-from ..lists import Finding, read_machine
+from ..kinds import CompileError
+from ..lists import Finding, Reading, read_machine
 from ..model.machine import Machine
 from ..runtime.compile import Compiled, compile_tables
 from .archive import BuildError, generation_date
@@ -29,9 +29,18 @@ class Built(NamedTuple):
     """A file that was written from the lists of a machine."""
 
     path: Path
-    machine: Machine
-    findings: tuple[Finding, ...]
+    reading: Reading
     variables: tuple[Variable, ...]
+
+    @property
+    def machine(self) -> Machine:
+        """The machine it is of."""
+        return self.reading.machine
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What there was to say about its lists."""
+        return self.reading.findings
 
 
 class Content(NamedTuple):
@@ -39,10 +48,8 @@ class Content(NamedTuple):
 
     Attributes
     ----------
-    machine : Machine
-        With at least one axis.
-    findings : tuple of Finding
-        From reading.
+    reading : Reading
+        Of a machine with at least one axis.
     compiled : Compiled
         Tables of the machine.
     variables : tuple of Variable
@@ -55,8 +62,7 @@ class Content(NamedTuple):
         Path in ``resources`` → contents.
     """
 
-    machine: Machine
-    findings: tuple[Finding, ...]
+    reading: Reading
     compiled: Compiled
     variables: tuple[Variable, ...]
     description: Description
@@ -65,7 +71,7 @@ class Content(NamedTuple):
 
     def built(self, path: Path) -> Built:
         """Return what a builder tells about the file it has written."""
-        return Built(path, self.machine, self.findings, self.variables)
+        return Built(path, self.reading, self.variables)
 
 
 def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured") -> Content:
@@ -76,9 +82,10 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
     BuildError
         If there is no axis in them, or they cannot be run or packed.
     """
-    machine, findings = read_machine(lists)
+    reading = read_machine(lists)
+    machine = reading.machine
     if not machine.axes:
-        raise BuildError("\n".join([*map(str, findings), f"{lists}: there is no axis in these lists."]))
+        raise BuildError("\n".join([*map(str, reading.findings), f"{lists}: there is no axis in these lists."]))
     try:
         compiled = compile_tables(machine, cycle_time)
     except CompileError as error:
@@ -93,7 +100,7 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
         generated=generation_date(),
     )
     variables = variables_of(machine, naming, cycle_time)
-    return Content(machine, findings, compiled, variables, description, *packed_lists(Path(lists)))
+    return Content(reading, compiled, variables, description, *packed_lists(reading))
 
 
 def output_path(output: str | os.PathLike[str], name: str) -> Path:

@@ -101,12 +101,13 @@ class Instance:
 
     def _read(self, path: Path) -> tuple[Machine, list[str], int]:
         """Return the machine of a list, what does not fit the variables, and the number of errors found."""
-        machine, findings = read_machine(path)
+        reading = read_machine(path)
+        findings = reading.findings
         for finding in findings[:FINDINGS_MAX]:
             self.tell(finding.severity, str(finding))
         if len(findings) > FINDINGS_MAX:
             self.tell(Severity.WARNING, f"{path.name}: {len(findings) - FINDINGS_MAX} more findings")
-        machine, complaints = self._interface.fit(machine)
+        machine, complaints = self._interface.fit(reading.machine)
         return machine, complaints, sum(finding.severity is Severity.ERROR for finding in findings)
 
     def _run(self, runtime: Runtime) -> None:

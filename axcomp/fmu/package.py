@@ -49,7 +49,7 @@ def package_axcomp(
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
     content = read_content(lists, cycle_time, naming)
-    interface = Interface.of(content.machine, content.place, cycle_time)
+    interface = Interface.of(content.reading.machine, content.place, cycle_time)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)

@@ -3,39 +3,44 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path, PurePosixPath
 
-from ..lists import list_files
-from .archive import BuildError, file_bytes
+from ..kinds.parameter import ListKind
+from ..lists import Document, Reading, read_machine
+from .archive import BuildError
 
 FOLDER = "machine"
 """Folder of the lists in ``resources``."""
 
+_NAMING = (ListKind.START_UP, ListKind.VOLUMETRIC)
+"""Lists that name others."""
 
-def packed_lists(lists: Path) -> tuple[str, dict[str, bytes]]:
-    """Return what ``read_machine`` must read in ``resources``, and the files there.
+
+def packed_lists(reading: Reading) -> tuple[str, dict[str, bytes]]:
+    """Return what ``read_machine`` must read in ``resources``, and the files there: those that were read.
 
     Raises
     ------
     BuildError
-        If a file cannot be read, or the copies would not be found: lists can name files by absolute paths.
+        If the copies would not be found: lists can name files by absolute paths.
     """
-    start, *found = (_absolute(path) for path in (lists, *list_files(lists)))
+    start = _absolute(reading.path)
+    found = {_absolute(path): document for path, document in reading.documents.items()}
+    first = start.parent if start in found else start
     try:
-        root = Path(os.path.commonpath([start if start.is_dir() else start.parent, *(path.parent for path in found)]))
+        root = Path(os.path.commonpath([first, *(path.parent for path in found)]))
     except ValueError:
-        raise BuildError(f"{lists}: the lists lie on different drives.") from None
-    files = {_packed(root, path): file_bytes(path) for path in found}
-    place = _packed(root, start)
-    lost = set(files) - _found_again(place, files)
+        raise BuildError(f"{reading.path}: the lists lie on different drives.") from None
+    files = {_packed(root, path): document for path, document in found.items()}
+    packed = _packed(root, start)
+    lost = set(files) - _found_again(packed, files)
     if lost:
         originals = [str(path) for path in found if _packed(root, path) in lost]
         raise BuildError(
-            f"{lists} names {', '.join(originals)} by an absolute path; in an FMU, names must be relative to the list "
-            "they stand in."
+            f"{reading.path} names {', '.join(originals)} by an absolute path; in an FMU, names must be relative to "
+            "the list they stand in."
         )
-    return place, files
+    return packed, {name: document.to_bytes() for name, document in files.items()}
 
 
 def _absolute(path: Path) -> Path:
@@ -47,13 +52,9 @@ def _packed(root: Path, path: Path) -> str:
     return str(PurePosixPath(FOLDER, path.relative_to(root).as_posix()))
 
 
-def _found_again(place: str, files: dict[str, bytes]) -> set[str]:
-    """Return which files are read when they lie somewhere else."""
-    with tempfile.TemporaryDirectory() as folder:
-        resources = _absolute(Path(folder))
-        for name, data in files.items():
-            path = resources / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
-        found = [_absolute(path) for path in list_files(resources / place)]
-        return {path.relative_to(resources).as_posix() for path in found if path.is_relative_to(resources)}
+def _found_again(packed: str, files: dict[str, Document]) -> set[str]:
+    """Return which files are read when they lie somewhere else. What tables hold does not matter to that."""
+    moved = [
+        Document(name, document.to_bytes() if document.kind in _NAMING else b"") for name, document in files.items()
+    ]
+    return {Path(os.path.normpath(path)).as_posix() for path in read_machine(packed, documents=moved).documents}

@@ -43,6 +43,8 @@ class Variable:
         Path of its field in the record of its block (see ``variables.slot_of``).
     volumetric : int or None
         Number of its volumetric compensation; None: it belongs to none.
+    quantity : str
+        Its name behind that of its axis or compensation: ``setpoint``, ``cross.correction``.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Variable:
     axis: int | None = None
     field: str = ""
     volumetric: int | None = None
+    quantity: str = ""
 
     @property
     def type(self) -> str:

@@ -11,7 +11,15 @@ from dataclasses import dataclass
 from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_at, backlash_fits, backlash_value
 from .cross import CrossState, CrossTable, adopt_cross, cross_fits, cross_value, move_cross
 from .crosstalk import CrosstalkState, CrosstalkTable, adopt_crosstalk, crosstalk_fits, crosstalk_value, move_crosstalk
-from .friction import FrictionState, FrictionTable, adopt_friction, friction_current, friction_fits, move_friction
+from .friction import (
+    FrictionInputs,
+    FrictionState,
+    FrictionTable,
+    adopt_friction,
+    friction_current,
+    friction_fits,
+    move_friction,
+)
 from .leadscrew import (
     LeadscrewState,
     LeadscrewTable,
@@ -75,6 +83,7 @@ class CompensationInputs:
     """What the compensations of an axis are given besides its motion."""
 
     temperature: TemperatureInputs
+    friction: FrictionInputs
 
 
 def compensation_value(
@@ -82,6 +91,7 @@ def compensation_value(
     pool: Vec,
     tables: CompensationTables,
     states: CompensationStates,
+    given: CompensationInputs,
     motion: Motion,
     axis: int,
     position: float,
@@ -105,7 +115,7 @@ def compensation_value(
         return leadscrew_value(pool, tables.leadscrew, states.leadscrew, position)
     if kind == BACKLASH:
         return backlash_value(tables.backlash, states.backlash, motion.axis[axis].direction)
-    return friction_current(pool, tables.friction, states.friction, motion.axis[axis], cycle_time)
+    return friction_current(pool, tables.friction, states.friction, given.friction, motion.axis[axis], cycle_time)
 
 
 def settled_value(
@@ -128,7 +138,7 @@ def settled_value(
 
 
 def has_inputs(kind: int) -> bool:
-    """Tell whether a kind is given something besides the motion."""
+    """Tell whether a kind is given what its values change by."""
     return kind == TEMPERATURE
 
 
@@ -141,9 +151,11 @@ def renew(
     return 0.0
 
 
-def has_left_table(kind: int, states: CompensationStates) -> bool:
-    """Tell whether a kind has been used where its table says nothing: the machine's user should know."""
-    return kind == CROSSTALK and states.crosstalk.outside
+def has_notice(kind: int, states: CompensationStates) -> bool:
+    """Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know."""
+    if kind == CROSSTALK:
+        return states.crosstalk.outside
+    return kind == FRICTION and states.friction.predicted
 
 
 def begin_inputs(tables: CompensationTables, given: CompensationInputs) -> None:

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from .activation import activate_if_stirred
 from .compensations import FRICTION, LEADSCREW, compensation_value, has_inputs, renew
+from .interpolation import nearest
 from .motion import AxisMotion, move_axis
 from .record import Vec
-from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
+from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, Inputs, Outputs, State, Tables
 from .shift import absorb_switch, release_shift
 from .switching import blend_in, contribution_of
 from .volumetric import compensate_volume
@@ -24,7 +25,7 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
     """Run one cycle: the outputs belong to these inputs."""
     references_changed = False
     for i in range(tables.axis_count):
-        accept(tables.axis[i], state.axis[i], state.motion.axis[i], inputs.axis[i], tables.cycle_time)
+        accept(tables, state.axis[i], state.motion.axis[i], inputs, i)
         if inputs.axis[i].referenced != state.axis[i].referenced:
             state.axis[i].referenced = inputs.axis[i].referenced
             references_changed = True
@@ -43,8 +44,9 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
             outputs.axis[i].error = axis.error
 
 
-def accept(table: AxisTable, axis: AxisState, motion: AxisMotion, given: AxisInputs, cycle_time: float) -> None:
+def accept(tables: Tables, axis: AxisState, motion: AxisMotion, inputs: Inputs, i: int) -> None:
     """Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle."""
+    given = inputs.axis[i]
     axis.held = not (
         -LARGEST < given.setpoint < LARGEST
         and -LARGEST < given.velocity < LARGEST
@@ -54,8 +56,15 @@ def accept(table: AxisTable, axis: AxisState, motion: AxisMotion, given: AxisInp
     if not axis.held:
         if not axis.started:
             motion.counted = given.setpoint
-        move_axis(motion, given.setpoint, given.velocity, cycle_time, table.modulo_range)
-        motion.acceleration = given.acceleration
+            motion.setpoint = given.setpoint
+        velocity = given.velocity
+        acceleration = given.acceleration
+        if inputs.derive_motion:
+            way = nearest(given.setpoint - motion.setpoint, tables.axis[i].modulo_range)
+            velocity = way / tables.cycle_time
+            acceleration = (velocity - motion.velocity) / tables.cycle_time
+        move_axis(motion, given.setpoint, velocity, tables.cycle_time, tables.axis[i].modulo_range)
+        motion.acceleration = acceleration
 
 
 def correct_axis(tables: Tables, pool: Vec, state: State, given: AxisInputs, out: AxisOutputs, i: int) -> None:
@@ -103,7 +112,15 @@ def correct_by(
         if kind == LEADSCREW:
             position = position + (correction + axis.shift.before.now)
         value = compensation_value(
-            kind, pool, table.compensation, axis.compensation, state.motion, i, position, tables.cycle_time
+            kind,
+            pool,
+            table.compensation,
+            axis.compensation,
+            given.compensation,
+            state.motion,
+            i,
+            position,
+            tables.cycle_time,
         )
     contribution = contribution_of(switching, own, value)
     if not axis.settled and kind < FRICTION:

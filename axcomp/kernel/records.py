@@ -110,6 +110,7 @@ class Inputs:
 
     reset: bool
     program_end: bool
+    derive_motion: bool  # velocities and accelerations are not given: they follow from the setpoints
     axis: Annotated[list[AxisInputs], AXES]
     tool_length: float  # mm
     volumetric: Annotated[list[VolumetricInputs], VOLUMETRICS]

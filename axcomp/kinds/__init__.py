@@ -1,29 +1,34 @@
-"""One room a compensation: the registry of kinds, in the order of a cycle.
+"""One module a compensation: everything that is special about it, for all the rooms above (see ``kind.Kind``)."""
 
-``KINDS`` is made from the kernel's tables of an axis: a kind that stands there has a module of the same name here.
-"""
-
-from __future__ import annotations
-
-from importlib import import_module
-from typing import Any
-
-from ..model.machine import Axis, Compensation
+from .backlash import Backlash
 from .compiling import CompileError
+from .cross import Cross
+from .crosstalk_data import Crosstalk, CrosstalkCurve, CrosstalkTest
+from .friction import Friction
 from .kind import KIND_NAMES, Kind, KindInput
+from .leadscrew import Leadscrew
+from .plane import Plane
+from .registry import KINDS, kind_of, kinds_of
+from .tables import Tables, tables_of
+from .temperature import Temperature
 
-KINDS: dict[str, Kind[Any]] = {name: import_module(f".{name}", __name__).KIND for name in KIND_NAMES}
-"""Name → kind, in the order of a cycle."""
-
-
-def kind_of(compensation: Compensation) -> Kind[Any]:
-    """Return the kind of a compensation."""
-    return KINDS[compensation.kind]
-
-
-def kinds_of(axis: Axis) -> list[Kind[Any]]:
-    """Return the kinds that an axis activates, with or without a table, in the order of a cycle."""
-    return [KINDS[name] for name in axis.kinds]
-
-
-__all__ = ["KINDS", "KIND_NAMES", "CompileError", "Kind", "KindInput", "kind_of", "kinds_of"]
+__all__ = [
+    "KINDS",
+    "KIND_NAMES",
+    "Backlash",
+    "CompileError",
+    "Cross",
+    "Crosstalk",
+    "CrosstalkCurve",
+    "CrosstalkTest",
+    "Friction",
+    "Kind",
+    "KindInput",
+    "Leadscrew",
+    "Plane",
+    "Tables",
+    "Temperature",
+    "kind_of",
+    "kinds_of",
+    "tables_of",
+]

@@ -9,11 +9,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..kernel.cycle import LARGEST
-from ..model.machine import Axis, Compensation
+from ..model.curve import Curve
+from ..model.machine import Axis, Compensation, Machine
+from ..model.quantity import Quantity
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
-from .parameter import DataType, ListKind, Parameter, Quantity, Severity, Value
+from .parameter import DataType, ListKind, Parameter, Severity, Value
+from .parameter import Quantity as ListQuantity
 from .parameter import axis as axis_id
+from .shown import Table, correction_of
 
 _MODE, AMOUNT = "lr_param.anwahl_losekomp", "getriebe[i].lose"
 NEGATIVE, POSITIVE = 1, 2
@@ -60,7 +64,7 @@ class BacklashKind(Kind[Backlash]):
             DataType.SGN16,
             0,
             axis_id("00103"),
-            Quantity.POSITION,
+            ListQuantity.POSITION,
             index_max=(15,),
         ),
     )
@@ -90,6 +94,12 @@ class BacklashKind(Kind[Backlash]):
         table.direction = -1 if compensation.mode == NEGATIVE else 1
         table.amount = table.direction * compensation.amount
         table.reversal_cycles = max(1, compiler.axis.backlash_cycles)
+
+    def tables(self, compensation: Backlash, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return what is added after negative and after positive motion."""
+        after = (-compensation.amount, 0.0) if compensation.mode == NEGATIVE else (0.0, compensation.amount)
+        over = Quantity("direction of motion", "", axis.name)
+        return (Curve((-1.0, 1.0), after, over, correction_of(axis), label="correction"),)
 
     def needs(self, compensation: Backlash, axis: Axis) -> tuple[int, ...]:
         """Return nothing: only the direction of motion counts."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..model.machine import Axis, Compensation
+from ..model.curve import Curve
+from ..model.machine import Axis, Compensation, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import AXIS_NUMBER, DataType, Parameter, Severity, activation, both, isg, position, smooth_switching
+from .shown import BOTH, Table, correction_of, position_of
 from .units import span
 
 PREFIX = "kw.crosscomp."
@@ -83,7 +85,7 @@ class CrossKind(Kind[Cross]):
         position(_SETPOINT, "Position of the master", both("00006"), aliases=(f"{PREFIX}table[i].sollw",)),
         position(CORRECTION, "Correction of the slave", both("00007")),
     )
-    tables = (_SETPOINT, CORRECTION)
+    columns = (_SETPOINT, CORRECTION)
     sizes = (_LAST_INDEX,)
     reserves = _MAX_POINTS
     points_error = 110639
@@ -136,6 +138,20 @@ class CrossKind(Kind[Cross]):
         table, x = compiler.tables.cross, compensation.positions
         compiler.curve(table.curve, self.name, x, compensation.corrections)
         compiler.argument(table.master, compensation.master, x[0], x[-1])
+
+    def tables(self, compensation: Cross, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return the curve over the master."""
+        over = position_of(machine.numbered(compensation.master))
+        return (
+            Curve(
+                compensation.positions,
+                compensation.corrections,
+                over,
+                correction_of(axis),
+                label=BOTH,
+                entry=CORRECTION,
+            ),
+        )
 
     def needs(self, compensation: Cross, axis: Axis) -> tuple[int, ...]:
         """Return the master."""

@@ -7,15 +7,16 @@ and compiled, and what it depends on. The kernel has a module of the same name w
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
 from ..kernel.compensations import CompensationTables
 from ..kernel.record import fields_of
-from ..model.machine import Axis, AxisType, Compensation, ModuloRange
+from ..model.machine import Axis, AxisType, Compensation, Machine, ModuloRange
 from .compiling import AxisCompiler
 from .parameter import Codes, ListKind, Parameter, Value
+from .shown import Range, Table, ranges_of
 from .units import Gear
 
 C = TypeVar("C", bound=Compensation)
@@ -112,24 +113,36 @@ class EntryWriter(Protocol):
 
 @dataclass(frozen=True)
 class KindInput:
-    """An input of the FMU that only one kind has; it starts as the list says.
+    """An input of the FMU that only one kind has.
 
     Attributes
     ----------
+    identifier : int
+        In the block of value references of its axis.
     name : str
-        Behind the kind's: ``temperature.offset``; the field of the kind's record of inputs too.
-    field : str
-        Of the compensation, whose value it starts with.
-    unit : str
-        ``{}`` stands for mm or deg.
+        Behind the axis': ``temperature.offset``.
+    path : str
+        Of its field in the kernel's record of the kind's inputs.
     description : str
         One sentence without a full stop.
+    unit : str
+        ``{}`` stands for mm or deg.
+    field : str
+        Of the compensation, whose value it starts with; "": it starts with 0 or false.
+    boolean : bool
+        It is a Boolean.
+    present : callable
+        Tells whether a compensation has it; None stands for a kind that is activated without a table.
     """
 
+    identifier: int
     name: str
-    field: str
-    unit: str
+    path: str
     description: str
+    unit: str = ""
+    field: str = ""
+    boolean: bool = False
+    present: Callable[[Any], bool] = lambda _: True
 
 
 class Kind(ABC, Generic[C]):
@@ -144,8 +157,7 @@ class Kind(ABC, Generic[C]):
     word : str
         In NC commands: ``X[COMP ON CROSS]``.
     identifier : int
-        First of the identifiers of its variables in a block of value references: enable, active, correction, and those
-        of its own inputs.
+        First of the identifiers of its variables in a block of value references: enable, active, correction.
     adds_to : str
         ``setpoint``, or ``current`` of the motor.
     activator : Parameter
@@ -156,7 +168,7 @@ class Kind(ABC, Generic[C]):
         What their names begin with.
     parameters : tuple of Parameter
         All its entries, in the order of the manuals.
-    tables, sizes : tuple of str
+    columns, sizes : tuple of str
         Entries whose presence, or whose value above 0, means that there is a table.
     reserves : str
         Entry that says how many entries the controller keeps free for its table; "" if none does.
@@ -171,7 +183,7 @@ class Kind(ABC, Generic[C]):
     inactive_code, no_table_code : str
         Of the findings about a table that nothing activates, and about an activated kind without a table.
     notice : str
-        What the user should know when the kernel says that its table has been left.
+        What the user should know once the kernel says so (``has_notice``).
     """
 
     name: ClassVar[str]
@@ -183,7 +195,7 @@ class Kind(ABC, Generic[C]):
     list_kind: ClassVar[ListKind] = ListKind.COMPENSATION
     prefix: ClassVar[str]
     parameters: ClassVar[tuple[Parameter, ...]]
-    tables: ClassVar[tuple[str, ...]] = ()
+    columns: ClassVar[tuple[str, ...]] = ()
     sizes: ClassVar[tuple[str, ...]] = ()
     reserves: ClassVar[str] = ""
     points_error: ClassVar[int] = 0
@@ -209,8 +221,8 @@ class Kind(ABC, Generic[C]):
 
     def is_present(self, values: Values) -> bool:
         """Tell whether a list has entries of a table, or says that there should be some."""
-        tables = any(values.cells(name) for name in self.tables)
-        return tables or any(values.given(name) and values.integer(name) > 0 for name in self.sizes)
+        given = any(values.cells(name) for name in self.columns)
+        return given or any(values.given(name) and values.integer(name) > 0 for name in self.sizes)
 
     @abstractmethod
     def read(self, source: TableReader) -> C | None:
@@ -223,6 +235,14 @@ class Kind(ABC, Generic[C]):
     @abstractmethod
     def compile(self, compensation: C, compiler: AxisCompiler) -> None:
         """Fill the kernel's table; CompileError for a compensation made by hand that cannot be run."""
+
+    @abstractmethod
+    def tables(self, compensation: C, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return what is shown, judged and converted: tables of one class over the same quantities, at least one."""
+
+    def ranges(self, compensation: C, tables: tuple[Table, ...], machine: Machine) -> list[Range]:
+        """Return over what, and from where to where, a compensation has values of its own; ``tables``: its own."""
+        return ranges_of(tables) if tables[0].entry else []
 
     def reserved(self, compensation: C | None, values: Values | None = None) -> int:
         """Return how many entries the controller keeps free for its table, at least 1.

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 
-from ..model.machine import Axis, Compensation
+from ..model.curve import Curve
+from ..model.machine import Axis, Compensation, Machine
+from . import shown
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, TableReader
 from .parameter import (
@@ -20,6 +22,7 @@ from .parameter import (
     both,
     position,
 )
+from .shown import Table, correction_of, position_of
 from .units import equidistant, in_list, span
 
 PREFIX = "kw.ssfk."
@@ -112,7 +115,7 @@ class LeadscrewKind(Kind[Leadscrew]):
             aliases=(f"{PREFIX}table[i].sollw",),
         ),
     )
-    tables = (POSITIVE, NEGATIVE, _SETPOINT)
+    columns = (POSITIVE, NEGATIVE, _SETPOINT)
     sizes = (_COUNT,)
     reserves = _MAX_POINTS
     points_error = 110638
@@ -209,6 +212,27 @@ class LeadscrewKind(Kind[Leadscrew]):
         compiler.argument(table.argument, compiler.axis.number, positions[0], positions[-1])
         if leadscrew.modulo:
             table.argument.start = positions[0]
+
+    def tables(self, compensation: Leadscrew, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return a curve for each direction, or one for both: actual − programmed, which is subtracted."""
+        period = axis.modulo.end - axis.modulo.start if compensation.modulo and axis.modulo is not None else None
+        sides = [(shown.BOTH if compensation.negative is None else shown.POSITIVE, compensation.positive, POSITIVE)]
+        if compensation.negative is not None:
+            sides.append((shown.NEGATIVE, compensation.negative, NEGATIVE))
+        return tuple(
+            Curve(
+                compensation.positions,
+                values,
+                position_of(axis),
+                correction_of(axis, "actual − programmed position"),
+                period,
+                label,
+                entry,
+                -1.0,
+                "repeats" if period is not None else "",
+            )
+            for label, values, entry in sides
+        )
 
     def follows(self, compensation: Leadscrew) -> bool:
         """Tell whether its position contains the corrections before it (P-COMP-00057)."""

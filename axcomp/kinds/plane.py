@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..kernel.cycle import LARGEST
-from ..model.machine import Axis, AxisType, Compensation
+from ..model.grid import Grid
+from ..model.machine import Axis, AxisType, Compensation, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import (
@@ -22,6 +23,7 @@ from .parameter import (
     position,
     smooth_switching,
 )
+from .shown import Table, correction_of, position_of
 
 PREFIX = "kw.crosscomp2."
 CORRECTION = f"{PREFIX}table[j][i].correction"
@@ -120,7 +122,7 @@ class PlaneKind(Kind[Plane]):
         Parameter(_MANUAL, "On only by command", DataType.BOOLEAN, 0, both("00030")),
         position(CORRECTION, "Correction of the slave; j counts master 2, i master 1", both("00016")),
     )
-    tables = (CORRECTION,)
+    columns = (CORRECTION,)
     sizes = _LAST_INDEX
     reserves = _MAX_POINTS
     points_error = 110640
@@ -205,6 +207,16 @@ class PlaneKind(Kind[Plane]):
         end2 = plane.start2 + (table.points2 - 1) * plane.interval2
         compiler.argument(table.master1, plane.master1, plane.start1, end1)
         compiler.argument(table.master2, plane.master2, plane.start2, end2)
+
+    def tables(self, compensation: Plane, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return the grid over both masters."""
+        over = (
+            position_of(machine.numbered(compensation.master1)),
+            position_of(machine.numbered(compensation.master2)),
+        )
+        x = tuple(compensation.start1 + compensation.interval1 * i for i in range(len(compensation.corrections[0])))
+        y = tuple(compensation.start2 + compensation.interval2 * j for j in range(len(compensation.corrections)))
+        return (Grid(x, y, compensation.corrections, over, correction_of(axis), entry=CORRECTION),)
 
     def needs(self, compensation: Plane, axis: Axis) -> tuple[int, ...]:
         """Return both masters and the slave."""

@@ -9,11 +9,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..kernel.cycle import LARGEST
-from ..model.machine import Axis, AxisType, Compensation
+from ..model.curve import Curve
+from ..model.machine import Axis, AxisType, Compensation, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
 from .parameter import DataType, ListKind, Parameter, Quantity, Severity, activation, position
 from .parameter import axis as axis_id
+from .shown import Table, correction_of, position_of
 from .units import convert, in_list
 
 PREFIX = "lr_param.temp_comp"
@@ -81,8 +83,14 @@ class TemperatureKind(Kind[Temperature]):
         ),
     )
     inputs = (
-        KindInput("offset", "offset", "{}", "Offset of the temperature compensation"),
-        KindInput("coefficient", "coefficient", "", "Growth by temperature, mm per mm or deg per deg"),
+        KindInput(39, "temperature.offset", "offset", "Offset of the temperature compensation", "{}", field="offset"),
+        KindInput(
+            40,
+            "temperature.coefficient",
+            "coefficient",
+            "Growth by temperature, mm per mm or deg per deg",
+            field="coefficient",
+        ),
     )
     codes = {"AXC-GRADIENT": (Severity.WARNING, "A growth by temperature that no machine has: it is in another unit")}
 
@@ -120,6 +128,12 @@ class TemperatureKind(Kind[Temperature]):
         table = compiler.tables.temperature
         table.position, table.offset, table.coefficient = numbers
 
+    def tables(self, compensation: Temperature, machine: Machine, axis: Axis) -> tuple[Table, ...]:
+        """Return the line over the position; it stands in no column and goes on beyond both ends."""
+        x = tuple(compensation.position + way for way in (-SHOWN_WAY, 0.0, SHOWN_WAY))
+        y = tuple(compensation.offset + compensation.coefficient * (s - compensation.position) for s in x)
+        return (Curve(x, y, position_of(axis), correction_of(axis), label="correction", note="goes on straight"),)
+
     def looks_up(self, compensation: Temperature, axis: Axis) -> Iterable[Reference]:
         """Return the axis' position and what may be measured while it runs."""
         return tuple((axis.number, name) for name in ("setpoint", "temperature.offset", "temperature.coefficient"))
@@ -127,5 +141,8 @@ class TemperatureKind(Kind[Temperature]):
 
 LARGEST_GRADIENT = 1e-3
 """mm per mm: aluminium grows by this over 40 K."""
+
+SHOWN_WAY = 1000.0
+"""How far the line is shown on either side, mm or °."""
 
 KIND = TemperatureKind()

@@ -1,12 +1,14 @@
-"""List files on disk: found by the names a controller uses, and read as text."""
+"""Files of a machine, on disk or held in memory: found by the names a controller uses, read once each."""
 
 from __future__ import annotations
 
+import os
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
+from .document import Document
 from .findings import Findings
-from .grammar import decode
 
 SIZE_MAX = 200_000_000
 """Bytes of a list that are read at most; the largest legal one has about 1 MB."""
@@ -14,34 +16,118 @@ SIZE_MAX = 200_000_000
 _DRIVE = re.compile(r"[A-Za-z]:")
 
 
+_Fault = tuple[str, str]
+"""Code and sentence that say why a file cannot be read."""
+
+
+class _Disk:
+    """Files as they lie on the disk."""
+
+    @staticmethod
+    def exists(path: Path) -> bool:
+        return path.exists()
+
+    @staticmethod
+    def is_dir(path: Path) -> bool:
+        return path.is_dir()
+
+    @staticmethod
+    def children(folder: Path) -> Iterable[Path]:
+        return folder.iterdir()
+
+    @staticmethod
+    def read(path: Path) -> Document | _Fault:
+        try:
+            if not path.exists():
+                return "AXC-MISSING", "There is no such file."
+            if not path.is_file():
+                return "AXC-UNREADABLE", "This is no file."
+            if path.stat().st_size > SIZE_MAX:
+                return "AXC-UNREADABLE", "The file is too large for a list."
+            return Document(path, path.read_bytes())
+        except (OSError, ValueError) as error:
+            reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+            return "AXC-UNREADABLE", f"The file cannot be read: {reason}."
+
+
+class _Memory:
+    """Documents that are held: there are no other files."""
+
+    def __init__(self, documents: Iterable[Document]) -> None:
+        self._documents = {_normal(document.path): document for document in documents}
+        self._folders: dict[Path, dict[Path, None]] = {}
+        for path in self._documents:
+            for child in (path, *path.parents):
+                if child != child.parent:
+                    self._folders.setdefault(child.parent, {})[child] = None
+
+    def exists(self, path: Path) -> bool:
+        return _normal(path) in self._documents or self.is_dir(path)
+
+    def is_dir(self, path: Path) -> bool:
+        return _normal(path) in self._folders
+
+    def children(self, folder: Path) -> Iterable[Path]:
+        return [folder / path.name for path in self._folders.get(_normal(folder), ())]
+
+    def read(self, path: Path) -> Document | _Fault:
+        return self._documents.get(_normal(path)) or ("AXC-MISSING", "There is no such file.")
+
+
+def _normal(path: Path) -> Path:
+    return Path(os.path.normpath(path))
+
+
 class Files:
-    """Reads list files and remembers which.
+    """Reads the files of a machine, each once, and keeps them.
+
+    Parameters
+    ----------
+    findings : Findings
+        Gets told what cannot be read.
+    held : iterable of Document or None
+        These are all files there are; None: those on the disk.
 
     Attributes
     ----------
-    read : list of Path
-        The files read so far.
+    documents : dict of Path to Document
+        The files read so far, by the path they were named by.
     """
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, held: Iterable[Document] | None = None) -> None:
         self._findings = findings
-        self.read: list[Path] = []
+        self._source: _Disk | _Memory = _Disk() if held is None else _Memory(held)
+        self._faults: dict[Path, _Fault] = {}
+        self.documents: dict[Path, Document] = {}
 
-    def text(self, path: Path) -> str | None:
-        """Return the text of a list; a finding and None where there is none."""
-        data, fault = _read(path)
-        text = None if data is None else decode(data)
-        if data is not None and text is None:
-            fault = ("AXC-BINARY", "The file is no text; nothing of it is taken.")
-        if fault is not None:
-            code, message = fault
-            self._findings.add(code, str(path), 0, "", message)
-            return None
-        self.read.append(path)
-        return text
+    def document(self, path: Path) -> Document | None:
+        """Return a file that is text; a finding and None where there is none."""
+        if path not in self.documents and path not in self._faults:
+            read = self._source.read(path)
+            if isinstance(read, Document):
+                self.documents[path] = read
+            else:
+                self._faults[path] = read
+        document = self.documents.get(path)
+        if document is not None and document.is_text:
+            return document
+        code, sentence = self._faults.get(path, ("AXC-BINARY", "The file is no text; nothing of it is taken."))
+        self._findings.add(code, str(path), 0, "", sentence)
+        return None
 
-    def named(self, folder: Path, name: str, place: tuple[str, int, str]) -> Path | None:
-        r"""Return the file that a list names, relative to ``folder``; a finding at ``place`` if it is not there.
+    def is_dir(self, path: Path) -> bool:
+        """Whether a path is a folder; OSError or ValueError for one that cannot be."""
+        return self._source.is_dir(path)
+
+    def children(self, folder: Path) -> list[Path]:
+        """Return what lies in a folder, nothing where that cannot be said."""
+        try:
+            return list(self._source.children(folder))
+        except OSError:
+            return []
+
+    def named(self, folder: Path, name: str, position: tuple[str, int, str]) -> Path | None:
+        r"""Return the file that a list names, relative to ``folder``; a finding at ``position`` if it is not there.
 
         ``\`` and ``/`` both separate. Names that differ only in case are taken, and of a name that begins at the
         root or with a drive letter the last part, if it lies in ``folder``: lists are often looked at far from the
@@ -53,7 +139,7 @@ class Files:
             exact, other = None, None
         if exact is not None:
             return exact
-        file, line, parameter = place
+        file, line, parameter = position
         if other is None:
             self._findings.add("AXC-MISSING", file, line, parameter, f"The file {name!r} does not exist.")
         else:
@@ -65,37 +151,21 @@ class Files:
         """Return the file as it is named, else one that may be meant."""
         plain = name.replace("\\", "/")
         exact = folder / plain
-        if exact.exists():
+        if self._source.exists(exact):
             return exact, None
         absolute = plain.startswith("/") or _DRIVE.match(plain) is not None
         parts = [part for part in plain.split("/") if part not in ("", ".")]
-        return None, _ignoring_case(folder, parts[-1:] if absolute else parts)
+        return None, self._ignoring_case(folder, parts[-1:] if absolute else parts)
 
-
-def _read(path: Path) -> tuple[bytes | None, tuple[str, str] | None]:
-    """Return what is in a file, or the code and the sentence that say why it cannot be read."""
-    try:
-        if not path.exists():
-            return None, ("AXC-MISSING", "There is no such file.")
-        if not path.is_file():
-            return None, ("AXC-UNREADABLE", "This is no file.")
-        if path.stat().st_size > SIZE_MAX:
-            return None, ("AXC-UNREADABLE", "The file is too large for a list.")
-        return path.read_bytes(), None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
-        return None, ("AXC-UNREADABLE", f"The file cannot be read: {reason}.")
-
-
-def _ignoring_case(folder: Path, parts: list[str]) -> Path | None:
-    """Return the path below ``folder`` whose parts are these but for their case."""
-    path = folder
-    for part in parts:
-        if part == "..":
-            path = path / part
-            continue
-        found = [entry for entry in path.iterdir() if entry.name.casefold() == part.casefold()]
-        if not found:
-            return None
-        path = min(found, key=lambda entry: (entry.name != part, entry.name))
-    return path if parts else None
+    def _ignoring_case(self, folder: Path, parts: list[str]) -> Path | None:
+        """Return the path below ``folder`` whose parts are these but for their case."""
+        path = folder
+        for part in parts:
+            if part == "..":
+                path = path / part
+                continue
+            found = [entry for entry in self._source.children(path) if entry.name.casefold() == part.casefold()]
+            if not found:
+                return None
+            path = min(found, key=lambda entry: (entry.name != part, entry.name))
+        return path if parts else None

@@ -31,6 +31,8 @@ class Finding:
         The vendor's number where the vendor documents one, else ``AXC-…`` (see ``CODES``).
     message : str
         One sentence: what was wrong, and what is used instead.
+    column : int
+        Where the entry begins, in characters from 1; 0 where that is not known.
     """
 
     severity: Severity
@@ -39,6 +41,7 @@ class Finding:
     parameter: str
     code: str
     message: str
+    column: int = 0
 
     def __str__(self) -> str:
         """``file:line: severity code: sentence``, as compilers write it; in brackets the entry the sentence omits."""
@@ -144,13 +147,16 @@ LIMIT = 10
 
 _INDEX = re.compile(r"\[[^\]]*\]")
 
+_Group = tuple[str, str, str]
+"""Code, file, and the parameter without indices or what else is counted together."""
+
 
 class Findings:
     """Collects findings; of the same fault in many rows of a table only the first ``LIMIT`` are kept one by one."""
 
     def __init__(self) -> None:
-        self._findings: list[Finding] = []
-        self._counts: dict[tuple[str, str, str], int] = {}
+        self._kept: list[tuple[_Group, Finding]] = []
+        self._counts: dict[_Group, int] = {}
 
     def add(self, code: str, file: str, line: int, parameter: str, message: str, group: str | None = None) -> None:
         """Note a finding. Those of one code, file and ``group`` (else the parameter without indices) are limited."""
@@ -158,7 +164,17 @@ class Findings:
         count = self._counts.get(key, 0) + 1
         self._counts[key] = count
         if count <= LIMIT:
-            self._findings.append(Finding(CODES[code][0], file, line, parameter, code, message))
+            self._kept.append((key, Finding(CODES[code][0], file, line, parameter, code, message)))
+
+    def take(self, others: Findings) -> None:
+        """Note what others have noted."""
+        room = {key: LIMIT - self._counts.get(key, 0) for key in others._counts}
+        for key, finding in others._kept:
+            if room[key] > 0:
+                room[key] -= 1
+                self._kept.append((key, finding))
+        for key, count in others._counts.items():
+            self._counts[key] = self._counts.get(key, 0) + count
 
     def errors(self) -> int:
         """Return how many findings of severity error have been noted so far."""
@@ -171,8 +187,8 @@ class Findings:
             for (code, file, group), count in self._counts.items()
             if count > LIMIT
         ]
-        files = list(dict.fromkeys(finding.file for finding in self._findings))
-        place = {file: index for index, file in enumerate(files)}
+        noted = [finding for _, finding in self._kept]
+        order = {file: index for index, file in enumerate(dict.fromkeys(finding.file for finding in noted))}
         # What concerns a file as a whole comes before its lines, except the counts: they close its list.
-        found = sorted(self._findings, key=lambda finding: (place[finding.file], finding.line))
-        return tuple(sorted([*found, *more], key=lambda finding: place[finding.file]))
+        found = sorted(noted, key=lambda finding: (order[finding.file], finding.line))
+        return tuple(sorted([*found, *more], key=lambda finding: order[finding.file]))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,24 +14,65 @@ from ..model.machine import Axis, Compensation, Machine
 from ..model.volumetric import Volumetric
 from .axes import Axes, AxisSettings, read_axis
 from .compensation import TableReader
+from .document import Document
 from .files import Files
 from .findings import Finding, Findings, ListError
+from .positions import located
 from .start_up import MachineFiles, NamedList, find_lists
-from .values import ListValues, read_values
+from .values import ListValues
 from .volumetric_list import read_one, read_volumetric
 
 
-class Reading(NamedTuple):
-    """A machine as its lists describe it, and what there was to say about them."""
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A machine as its lists describe it, what there was to say about them, and the lists themselves.
+
+    Attributes
+    ----------
+    machine : Machine
+    findings : tuple of Finding
+    path : Path
+        What was read.
+    documents : dict of Path to Document
+        Every file that was read, by the path it was named by, the start-up list first.
+    start_up : Document or None
+        The start-up list, where there is one.
+    axes : Axes
+        What the lists say about the axes besides their tables.
+    """
 
     machine: Machine
     findings: tuple[Finding, ...]
+    path: Path
+    documents: dict[Path, Document] = field(repr=False)
+    start_up: Document | None = field(repr=False)
+    axes: Axes = field(repr=False)
+    _axis_lists: Mapping[int, Document] = field(repr=False)
+    _compensation_lists: Mapping[int, Document] = field(repr=False)
+
+    def axis_list(self, number: int) -> Document | None:
+        """Return the list that describes an axis, by its logical number."""
+        return self._axis_lists.get(number)
+
+    def compensation_list(self, number: int) -> Document | None:
+        """Return the list with the tables of an axis, by its logical number."""
+        return self._compensation_lists.get(number)
+
+    def again(self) -> Reading:
+        """Read the documents as they are now; those that have not been changed since are not parsed again."""
+        return read_machine(self.path, documents=self.documents.values())
+
+    def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
+        """Return findings about these lists with the columns of the entries they are about."""
+        return located(findings, self.documents)
 
 
 _NUMBER = "kopf.achs_nr"
 
 
-def read_machine(path: str | PathLike[str], *, strict: bool = False) -> Reading:
+def read_machine(
+    path: str | PathLike[str], *, strict: bool = False, documents: Iterable[Document] | None = None
+) -> Reading:
     """Read the lists of a machine.
 
     Nothing in a list raises: what is wrong becomes a finding, and the controller's default is used.
@@ -42,6 +84,8 @@ def read_machine(path: str | PathLike[str], *, strict: bool = False) -> Reading:
         any axis list every compensation with a plausible table acts, and all axes are translatory.
     strict : bool
         Raise if there is a finding of severity error.
+    documents : iterable of Document, optional
+        These are all files there are; the disk is not looked at.
 
     Raises
     ------
@@ -49,19 +93,12 @@ def read_machine(path: str | PathLike[str], *, strict: bool = False) -> Reading:
         In strict mode, with all findings of severity error.
     """
     findings = Findings()
-    machine = _MachineReader(findings).read(Path(path))
-    found = findings.all()
-    errors = [finding for finding in found if finding.severity is Severity.ERROR]
+    reader = _MachineReader(findings, Files(findings, documents))
+    reading = reader.read(Path(path))
+    errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
         raise ListError(errors)
-    return Reading(machine, found)
-
-
-def list_files(path: str | PathLike[str]) -> tuple[Path, ...]:
-    """Return the files that ``read_machine`` reads, each once, the start-up list first."""
-    reader = _MachineReader(Findings())
-    reader.read(Path(path))
-    return tuple(dict.fromkeys(reader.files.read))
+    return reading
 
 
 def reread_volumetric(
@@ -85,12 +122,13 @@ def reread_volumetric(
     tuple of Finding
         What there is to say about this compensation.
     """
-    findings = Findings()
-    start = _MachineReader(Findings()).start(Path(path))
+    findings, others = Findings(), Findings()
+    start = _MachineReader(others, Files(others)).start(Path(path))
     if start is None:
         return None, ()
-    volumetric = read_one(index, start.lists, Files(findings), start.axes, findings, files)
-    return volumetric, findings.all()
+    read = Files(findings)
+    volumetric = read_one(index, start.lists, read, start.axes, findings, files)
+    return volumetric, located(findings.all(), read.documents)
 
 
 class _Start(NamedTuple):
@@ -114,9 +152,11 @@ class _Acting(NamedTuple):
 class _MachineReader:
     """Reads axis lists, then compensation lists, then the tables: these need to know all axes."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, files: Files) -> None:
         self.findings = findings
-        self.files = Files(findings)
+        self.files = files
+        self._axis_lists: dict[int, Document] = {}
+        self._compensation_lists: dict[int, Document] = {}
 
     def start(self, path: Path) -> _Start | None:
         """Read all but the tables; None, with a finding, if that is impossible."""
@@ -130,12 +170,26 @@ class _MachineReader:
         self._read_axis_lists(lists, axes, default)
         return _Start(lists, axes, self._read_compensation_lists(lists, axes, default))
 
-    def read(self, path: Path) -> Machine:
+    def read(self, path: Path) -> Reading:
         """Return the machine whose lists are at a path."""
         start = self.start(path)
         if start is None:
-            return Machine()
+            start = _Start(MachineFiles(path), Axes(self.findings, invent=True), {})
         lists, axes, tables = start
+        machine = self._machine(lists, axes, tables)
+        documents = self.files.documents
+        return Reading(
+            machine,
+            located(self.findings.all(), documents),
+            path,
+            documents,
+            next((one for one in documents.values() if one.kind is ListKind.START_UP), None),
+            axes,
+            self._axis_lists,
+            self._compensation_lists,
+        )
+
+    def _machine(self, lists: MachineFiles, axes: Axes, tables: dict[int, ListValues]) -> Machine:
         # Reading a table may add the axes it refers to.
         acting = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
         volumetric = read_volumetric(lists, self.files, axes, self.findings)
@@ -159,10 +213,10 @@ class _MachineReader:
 
     def _values(self, path: Path, kind: ListKind, fallback: ListValues | None = None) -> ListValues | None:
         """Read one list; None with a finding where there is nothing in it."""
-        text = self.files.text(path)
-        if text is None:
+        document = self.files.document(path)
+        if document is None:
             return None
-        values = read_values(text, str(path), kind, self.findings, fallback)
+        values = document.read_as(kind, self.findings, fallback)
         if values.looks_like is not None:
             message = f"This looks like a list {values.looks_like.value}, not {kind.value}; it is not used."
             self.findings.add("AXC-KIND", str(path), 0, "", message)
@@ -186,8 +240,8 @@ class _MachineReader:
                 self._note("AXC-NUMBER", values, "The list does not say which axis it is for; it is not used.")
             elif number in axes:
                 self._note_twice(number, values)
-            else:
-                axes.add(read_axis(number, values, self.findings), *_at_number(values))
+            elif axes.add(read_axis(number, values, self.findings), *_at_number(values)):
+                self._axis_lists[number] = self.files.documents[named.path]
 
     def _read_compensation_lists(
         self, lists: MachineFiles, axes: Axes, default: ListValues | None
@@ -203,6 +257,7 @@ class _MachineReader:
                 self._note_twice(number, values)
             elif number in axes or self._add_axis(number, values, axes, default, lists):
                 tables[number] = values
+                self._compensation_lists[number] = self.files.documents[named.path]
                 axis = axes.get(number)
                 axis.take_name(values)
         return tables
@@ -212,7 +267,7 @@ class _MachineReader:
         own = values.integer(_NUMBER)
         if own and named.log_ax_nr and own != named.log_ax_nr:
             message = f"Axis {named.log_ax_nr} is expected, but {values.file} is for axis {own}; that list is not used."
-            self.findings.add("110229", *named.number_place, message)
+            self.findings.add("110229", *named.number_position, message)
             return 0
         if own or named.log_ax_nr:
             return own or named.log_ax_nr
@@ -266,7 +321,7 @@ class _MachineReader:
 
     @staticmethod
     def _note_inactive(kind: Kind[Any], source: TableReader) -> None:
-        name = next(name for name in kind.tables if source.values.cells(name))
+        name = next(name for name in kind.columns if source.values.cells(name))
         entry = kind.activator.name
         message = f"There is a {kind.name} table, but {entry} of axis {source.axis.number} is 0: it does not act."
         source.note(kind.inactive_code, name, message, *min(source.values.cells(name)))

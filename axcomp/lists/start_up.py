@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..kinds.parameter import ListKind
+from .document import Document
 from .files import Files
 from .findings import Findings
-from .values import ListValues, read_values
+from .values import ListValues
 
 START_UP_NAME = "hochlauf.lis"
 
@@ -26,13 +27,13 @@ class NamedList:
     path : Path
     log_ax_nr : int
         Logical axis number the start-up list gives it, 0 where it gives none (P-STUP-00036).
-    number_place : tuple of str, int and str
+    number_position : tuple of str, int and str
         File, line and parameter of that number.
     """
 
     path: Path
     log_ax_nr: int = 0
-    number_place: tuple[str, int, str] = ("", 0, "")
+    number_position: tuple[str, int, str] = ("", 0, "")
 
 
 @dataclass
@@ -65,26 +66,22 @@ class MachineFiles:
 
 def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
     """Return the lists of a machine: ``path`` is a start-up list, a folder, or a single compensation list."""
-    if path.is_dir():
-        found = _in_folder(path, START_UP_NAME)
+    if files.is_dir(path):
+        found = _in_folder(path, START_UP_NAME, files)
         if not found:
-            return _lists_of_folder(path, findings)
+            return _lists_of_folder(path, files, findings)
         path = found[0]
-    text = files.text(path)
-    if text is None:
+    document = files.document(path)
+    if document is None:
         return MachineFiles(path.parent)
-    if _is_start_up(text, path):
-        return _lists_of_start_up(path, text, files, findings)
-    files.read.pop()
+    if _is_start_up(document):
+        return _lists_of_start_up(document, files, findings)
     return MachineFiles(path.parent, [NamedList(path)])
 
 
-def _in_folder(folder: Path, pattern: str) -> list[Path]:
+def _in_folder(folder: Path, pattern: str, files: Files) -> list[Path]:
     """Return the files of a folder that match, whatever their case, numbers in their order."""
-    try:
-        found = [entry for entry in folder.iterdir() if Path(entry.name.lower()).match(pattern)]
-    except OSError:
-        return []
+    found = [entry for entry in files.children(folder) if Path(entry.name.lower()).match(pattern)]
 
     def by_number(entry: Path) -> list[tuple[int, str]]:
         return [(int(digits or 0), letters) for digits, letters in re.findall(r"([0-9]{1,9})|([^0-9]+)", entry.name)]
@@ -92,11 +89,11 @@ def _in_folder(folder: Path, pattern: str) -> list[Path]:
     return sorted(found, key=by_number)
 
 
-def _lists_of_folder(folder: Path, findings: Findings) -> MachineFiles:
+def _lists_of_folder(folder: Path, files: Files, findings: Findings) -> MachineFiles:
     """Take all compensation and axis lists of a folder that has no start-up list."""
     lists = MachineFiles(folder)
     for kind, taken in ((ListKind.COMPENSATION, lists.compensation), (ListKind.AXIS, lists.axis)):
-        found = _in_folder(folder, kind.value)
+        found = _in_folder(folder, kind.value, files)
         taken.extend(map(NamedList, found[:_LISTS_MAX]))
         if len(found) > _LISTS_MAX:
             message = f"{len(found)} files {kind.value}: only the first {_LISTS_MAX} are read."
@@ -110,18 +107,19 @@ def _lists_of_folder(folder: Path, findings: Findings) -> MachineFiles:
 _START_UP_ENTRY = re.compile(r"^\s*(?:zahl_kw|zahl_mds|achs_kw|achs_mds|default_achs_mds|vol_comp\s*\[)", re.I | re.M)
 
 
-def _is_start_up(text: str, path: Path) -> bool:
-    return path.name.lower() == START_UP_NAME or _START_UP_ENTRY.search(text) is not None
+def _is_start_up(document: Document) -> bool:
+    return document.path.name.lower() == START_UP_NAME or _START_UP_ENTRY.search(document.text) is not None
 
 
-def _lists_of_start_up(path: Path, text: str, files: Files, findings: Findings) -> MachineFiles:
-    values = read_values(text, str(path), ListKind.START_UP, findings)
+def _lists_of_start_up(document: Document, files: Files, findings: Findings) -> MachineFiles:
+    path = document.path
+    values = document.read_as(ListKind.START_UP, findings)
     lists = MachineFiles(path.parent, start_up=values)
     if not values:
         findings.add("AXC-EMPTY", str(path), 0, "", "The list has no entry.")
     if values.text("default_achs_mds"):
-        place = (*values.place("default_achs_mds"), "default_achs_mds")
-        lists.axis_default = files.named(path.parent, values.text("default_achs_mds"), place)
+        position = (*values.place("default_achs_mds"), "default_achs_mds")
+        lists.axis_default = files.named(path.parent, values.text("default_achs_mds"), position)
     lists.axis.extend(_named_lists(values, "zahl_mds", "achs_mds[i]", files, lists.folder, findings))
     for named in _named_lists(values, "zahl_kw", "achs_kw[i]", files, lists.folder, findings):
         lists.compensation.append(named)
@@ -141,12 +139,11 @@ def _named_lists(
             message = f"{parameter} is missing, although {count_name} is {count}."
             findings.add("AXC-MISSING", values.file, values.line(count_name), parameter, message)
             continue
-        place = (*values.place(name, index), parameter)
-        path = files.named(folder, values.text(name, index), place)
+        path = files.named(folder, values.text(name, index), (*values.place(name, index), parameter))
         if path is not None:
             number, numbered = f"achs_kw_log_ax_nr[{index}]", "achs_kw_log_ax_nr[i]"
-            place = (*values.place(numbered, index), number)
-            yield NamedList(path, values.integer(numbered, index) if name == "achs_kw[i]" else 0, place)
+            position = (*values.place(numbered, index), number)
+            yield NamedList(path, values.integer(numbered, index) if name == "achs_kw[i]" else 0, position)
     beyond = sorted(indices for indices in values.cells(name) if indices[0] >= count)
     if beyond and values.given(count_name):
         message = f"{len(beyond)} entries {name} lie beyond {count_name} = {count}; they are not used."

@@ -37,7 +37,7 @@ from .files import Files
 from .findings import Findings
 from .isg_csv import read_isg_csv
 from .start_up import MachineFiles
-from .values import ListValues, read_values
+from .values import ListValues
 from .volumetric_blocks import ParameterBlock
 from .volumetric_parameters import Parameters, assemble
 
@@ -71,11 +71,11 @@ def read_one(
         return None
     parameter = _FILE_NAME.replace("[i]", f"[{index}]")
     path = files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
-    text = None if path is None else files.text(path)
-    if path is None or text is None:
+    document = None if path is None else files.document(path)
+    if document is None:
         return None
     errors = findings.errors()
-    values = read_values(text, str(path), ListKind.VOLUMETRIC, findings)
+    values = document.read_as(ListKind.VOLUMETRIC, findings)
     reader = VolumetricReader(index, values, lists, files, axes, findings, named)
     volumetric = reader.read()
     if findings.errors() > errors:
@@ -161,12 +161,12 @@ class VolumetricReader:
             if not name:
                 continue
             path = self.files.named(self.lists.folder, name, (*self.values.place("file[j]", j), f"file[{j}]"))
-            text = None if path is None else self.files.text(path)
-            if text is None:
+            document = None if path is None else self.files.document(path)
+            if document is None:
                 empty = False
                 continue
             etalon = self.values.text("file_format[j]", j) == ETALON_EXCHANGE
-            for block in (read_etalon if etalon else read_isg_csv)(text, str(path), self.findings):
+            for block in (read_etalon if etalon else read_isg_csv)(document.text, str(path), self.findings):
                 empty = False
                 yield block
         if empty:

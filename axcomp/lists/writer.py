@@ -8,7 +8,9 @@ from pathlib import Path
 from ..kinds import KINDS, kind_of
 from ..kinds.parameter import ListKind
 from ..model.machine import AXES_MAX, Axis, Compensation, Machine
+from .document import Document
 from .format import Lines
+from .saving import write_whole
 from .start_up import START_UP_NAME
 from .volumetric_writer import check_records, format_parameters, format_volumetric_list, list_file, parameter_file
 
@@ -33,6 +35,15 @@ def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
     OSError
         If the folder cannot be written to.
     """
+    documents = machine_documents(machine, folder)
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    for document in documents:
+        write_whole(document.path, document.to_bytes())
+    return [document.path for document in documents]
+
+
+def machine_documents(machine: Machine, folder: str | PathLike[str]) -> list[Document]:
+    """Return the lists of a machine, to be read or written; ValueError if a list cannot hold a value."""
     texts = {START_UP_NAME: format_start_up_list(machine)}
     for axis in machine.axes:
         texts[_axis_file(axis)] = format_axis_list(axis)
@@ -42,12 +53,7 @@ def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
         check_records(volumetric)
         texts[list_file(volumetric)] = format_volumetric_list(volumetric)
         texts[parameter_file(volumetric)] = format_parameters(volumetric)
-    data = {name: text.encode() for name, text in texts.items()}
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, content in data.items():
-        (folder / name).write_bytes(content)
-    return [folder / name for name in data]
+    return [Document(Path(folder, name), text.encode()) for name, text in texts.items()]
 
 
 def format_start_up_list(machine: Machine) -> str:

@@ -19,21 +19,22 @@ import numpy.typing as npt
 
 from ..engine.motion import Array
 from ..lists.grammar import decode
+from ..model.quantity import shown
 
 LENGTHS = {"m": 1e6, "mm": 1e3, "um": 1.0, "nm": 1e-3}
 """Units of length, in µm."""
 
-_MDEG_PER_RAD = 180e3 / math.pi
+_PER_RAD = 648e3 / math.pi
 ANGLES = {
-    "deg": 1e3,
-    "mdeg": 1.0,
-    "arcmin": 1e3 / 60.0,
-    "arcsec": 1.0 / 3.6,
-    "rad": _MDEG_PER_RAD,
-    "mrad": _MDEG_PER_RAD * 1e-3,
-    "urad": _MDEG_PER_RAD * 1e-6,
+    "deg": 3600.0,
+    "mdeg": 3.6,
+    "arcmin": 60.0,
+    "arcsec": 1.0,
+    "rad": _PER_RAD,
+    "mrad": _PER_RAD * 1e-3,
+    "urad": _PER_RAD * 1e-6,
 }
-"""Units of angle, in 0.001°."""
+"""Units of angle, in ″."""
 
 LARGEST = 1e9
 """Numbers beyond it, whatever the unit, are no measurement."""
@@ -107,6 +108,12 @@ class Columns:
     units: Mapping[str, str]
     lines: npt.NDArray[np.int64]
     details: Mapping[str, str]
+
+    def positions(self, name: str) -> Array:
+        """Return a column in mm or °; zeros where there is none."""
+        if name not in self.values:
+            return np.zeros(len(self.lines))
+        return self.values[name] / shown("deg" if self.units[name] in ANGLES else "mm").factor
 
 
 def read_text(path: Path) -> str:

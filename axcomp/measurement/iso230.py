@@ -49,7 +49,7 @@ class Iso230Result:
     axis, source : str
         Which axis, and from which file.
     position_unit, unit : str
-        ``mm`` and ``µm``, or ``deg`` and ``0.001°``.
+        ``mm`` and ``µm``, or ``deg`` and ``″``.
     positions : array, shape (m,)
         Targets, ascending, mm or °.
     count_up, count_down : array of int, shape (m,)
@@ -157,7 +157,7 @@ class Iso230Result:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
-        from ..plot.iso230 import plot
+        from .picture import plot
 
         return plot(self, ax)
 

@@ -1,6 +1,6 @@
 """Positioning measurements: how far an axis, or one that follows it, is off at targets approached several times.
 
-Deviations are *actual − target* in thousandths of the axis' unit: µm, or 0.001°.
+Deviations are *actual − target* in the unit that small values are shown in: µm, or ″.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..model.quantity import shown
 from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, read_columns
 from .renishaw import is_rtl, read_rtl
 
@@ -41,7 +42,7 @@ class Positioning:
     directions : array of int, shape (n,)
         1 or −1: from which side the target was approached.
     deviations : array, shape (n,)
-        Actual − target, µm or 0.001°.
+        Actual − target, µm or ″.
     unit : str
         Of the targets: ``mm`` or ``deg``.
     axis : str
@@ -67,7 +68,12 @@ class Positioning:
     @property
     def deviation_unit(self) -> str:
         """Unit of the deviations and of everything computed from them."""
-        return thousandth(self.deviating_unit or self.unit)
+        return shown(self.deviating).unit
+
+    @property
+    def deviating(self) -> str:
+        """What the axis that deviates counts in: ``mm`` or ``deg``."""
+        return self.deviating_unit or self.unit
 
     def grid(self) -> tuple[Array, npt.NDArray[np.int64], Array]:
         """Return targets (m,), runs (k,) and deviations (2, m, k): first positive direction, NaN where nothing is."""
@@ -91,11 +97,6 @@ class Positioning:
             directions=self.directions[keep],
             deviations=deviations[keep],
         )
-
-
-def thousandth(unit: str) -> str:
-    """Return the unit that deviations of an axis have which counts in ``mm`` or ``deg``."""
-    return "µm" if unit == "mm" else "0.001°"
 
 
 def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Positioning:
@@ -194,7 +195,7 @@ def angular(columns: Columns, *names: str) -> bool:
 def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
     runs = whole_runs(columns)
     rotary = angular(columns, "target", *(() if of_another_axis else ("deviation",)))
-    targets = columns.values["target"] * 1e-3
+    targets = columns.positions("target")
     directions = columns.values["direction"].astype(np.int64)
     seen: dict[tuple[float, int, int], int] = {}
     for *key, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):

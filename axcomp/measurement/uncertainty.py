@@ -22,10 +22,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
+from ..model.quantity import shown
+
 UNIFORM = 1.0 / math.sqrt(3.0)
 """Expanded uncertainty (k = 2) of an influence known within a range of 1."""
 
-MICRO = 1e3
+MICRO = shown("mm").factor
 """mm to µm."""
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import builtins
 import enum
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, TypeVar
 
@@ -57,6 +57,11 @@ class Compensation:
         if kind:
             cls.kind = kind
             Compensation._order.setdefault(kind, len(Compensation._order))
+
+    @staticmethod
+    def arrange(kinds: Sequence[str]) -> None:
+        """Say in which order kinds act in a cycle."""
+        Compensation._order.update((kind, place) for place, kind in enumerate(kinds))
 
     @staticmethod
     def is_kind(name: str) -> bool:
@@ -208,6 +213,10 @@ class Machine:
             if axis.number == number:
                 return index
         raise KeyError(number)
+
+    def numbered(self, number: int) -> Axis:
+        """Return the axis with a logical number; KeyError if there is none."""
+        return self.axes[self.index_of(number)]
 
     def axis(self, name: str) -> Axis:
         """Return the axis called ``name``; KeyError if there is none."""

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
+from ..model.quantity import Quantity
 from .content import Content, NotComparableError, Records, Subject, span, spread
-from .curves import Quantity
-from .iso230 import DOWN, UP
-from .style import labelled, new_figure, printed
+from .style import DOWN, UP, labelled, new_figure, printed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -67,7 +66,7 @@ class Bars:
             raise NotComparableError(f"{self.subject.title}: the two tables are of different quantities")
         names = dict.fromkeys((*self.values, *other.values))
         values = {name: other.values.get(name, 0.0) - self.values.get(name, 0.0) for name in names}
-        return Bars(self.subject, Quantity(f"Δ {self.quantity.name}", self.quantity.unit), values, "other − this one")
+        return Bars(self.subject, self.quantity.changed(), values, "other − this one")
 
 
 def plot_bars(ax: Axes, bars: Bars) -> Axes:

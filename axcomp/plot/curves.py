@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
 
+from ..model.curve import Curve
+from ..model.quantity import Quantity
 from .content import Content, NotComparableError, Records, Subject, span, spread
 from .style import COLOURS, labelled, line_styles, new_figure, printed
 
@@ -23,44 +25,6 @@ MARKED_MAX = 150
 """More points than this are not marked: they would hide the line."""
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """What an axis of a picture shows, and in which unit."""
-
-    name: str
-    unit: str
-
-    def __str__(self) -> str:
-        return f"{self.name} [{self.unit}]"
-
-
-@dataclass(frozen=True, eq=False)
-class Line:
-    """One curve: straight between its points, the end values held outside.
-
-    Attributes
-    ----------
-    name : str
-        In the legend.
-    x, y : ndarray, shape (points,)
-        Ascending places and the values there.
-    period : float or None
-        After which it repeats; the last point then lies one period behind the first.
-    """
-
-    name: str
-    x: Array
-    y: Array
-    period: float | None = None
-
-    def at(self, x: Array) -> Array:
-        """Return the values at some places."""
-        if self.period is not None:
-            x = self.x[0] + np.mod(x - self.x[0], self.period)
-        values: Array = np.interp(x, self.x, self.y)
-        return values
-
-
 @dataclass(frozen=True, eq=False)
 class Curves:
     """Some curves in one picture.
@@ -69,10 +33,8 @@ class Curves:
     ----------
     subject : Subject
         What they are of.
-    x, y : Quantity
-        Of the places and of the values.
-    lines : tuple of Line
-        At least one.
+    lines : tuple of Curve
+        At least one, all over and of the same quantities, in the unit they are shown in; closed where they repeat.
     reversal : bool
         There are two lines whose difference is of interest: it is drawn below them.
     logarithmic : bool
@@ -84,13 +46,21 @@ class Curves:
     """
 
     subject: Subject
-    x: Quantity
-    y: Quantity
-    lines: tuple[Line, ...]
+    lines: tuple[Curve, ...]
     reversal: bool = False
     logarithmic: bool = False
     zero_if_absent: bool = False
     note: str = ""
+
+    @property
+    def x(self) -> Quantity:
+        """Of the places."""
+        return self.lines[0].over
+
+    @property
+    def y(self) -> Quantity:
+        """Of the values."""
+        return self.lines[0].of
 
     @property
     def title(self) -> str:
@@ -116,8 +86,8 @@ class Curves:
     def records(self) -> Records:
         """Return place and values, a row for each place."""
         x = self.places()
-        columns = [line.at(x) for line in self.lines]
-        names = [f"{line.name} [{self.y.unit}]" for line in self.lines]
+        columns = [np.array(line.at(x)) for line in self.lines]
+        names = [f"{line.label} [{self.y.unit}]" for line in self.lines]
         if self.reversal and len(columns) == 2:
             columns.append(columns[0] - columns[1])
             names.append(f"difference [{self.y.unit}]")
@@ -160,27 +130,27 @@ class CurvesDifference:
 
     def difference(self) -> Curves:
         """Return other − one, line by line, at all points of both."""
-        lines = []
-        for name in dict.fromkeys(line.name for line in (*self._longer().lines, *self.one.lines, *self.other.lines)):
-            mine, theirs = (self._line(content, name) for content in (self.one, self.other))
-            if mine is not None and theirs is not None:
-                x = np.unique(np.concatenate([mine.x, theirs.x]))
-                lines.append(Line(name, x, theirs.at(x) - mine.at(x)))
-        y = Quantity(f"Δ {self.one.y.name}", self.one.y.unit)
-        return replace(self.one, y=y, lines=tuple(lines), reversal=False, note="other − this one")
+        names = dict.fromkeys(line.label for line in (*self._longer().lines, *self.one.lines, *self.other.lines))
+        pairs = [(self._line(self.one, name), self._line(self.other, name)) for name in names]
+        lines = [
+            replace(theirs.minus(mine), label=name)
+            for name, (mine, theirs) in zip(names, pairs, strict=True)
+            if mine is not None and theirs is not None
+        ]
+        return replace(self.one, lines=tuple(lines), reversal=False, note="other − this one")
 
     def _longer(self) -> Curves:
         return self.other if len(self.other.lines) > len(self.one.lines) else self.one
 
-    def _line(self, content: Curves, name: str) -> Line | None:
+    def _line(self, content: Curves, label: str) -> Curve | None:
         """Return a line by name: the only one serves for each, and what is absent may be 0; None: it has no partner."""
         for line in content.lines:
-            if line.name == name:
+            if line.label == label:
                 return line
         if content.zero_if_absent:
-            x = content.places()[[0, -1]]
-            return Line(name, x, np.zeros(2))
-        if len(content.lines) == 1 and name in {line.name for line in self._longer().lines}:
+            ends = tuple(dict.fromkeys(content.places()[[0, -1]].tolist()))
+            return Curve(ends, (0.0,) * len(ends), content.x, content.y)
+        if len(content.lines) == 1 and label in {line.label for line in self._longer().lines}:
             return content.lines[0]
         return None
 
@@ -227,7 +197,7 @@ def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-",
             marker=marker if len(line.x) <= MARKED_MAX else None,
             ms=4.5 if len(line.x) <= MARKED_MAX // 3 else 3.0,
             markerfacecolor="white" if hollow else colour,
-            label=printed(line.name + suffix),
+            label=printed(line.label + suffix),
         )
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
     if curves.logarithmic and _is_wide(curves.places()):
@@ -242,11 +212,11 @@ def plot_reversal(ax: Axes, curves: Curves) -> Axes:
     """Draw the first of two curves minus the second into ``ax``; return it."""
     first, second = curves.lines
     x = curves.places()
-    difference = first.at(x) - second.at(x)
+    difference = np.array(first.at(x)) - second.at(x)
     ax.fill_between(x, 0.0, difference, color=COLOURS[2], alpha=0.2, lw=0)
     ax.plot(x, difference, "-", color=COLOURS[2], lw=1.4)
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
-    title = f"{first.name} − {second.name}: {difference.min():.1f} … {difference.max():.1f} {curves.y.unit}"
+    title = f"{first.label} − {second.label}: {difference.min():.1f} … {difference.max():.1f} {curves.y.unit}"
     labelled(ax, title, str(curves.x), f"difference [{curves.y.unit}]")
     ax.title.set_fontsize(11)
     return ax

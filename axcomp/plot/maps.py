@@ -11,8 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
+from ..model.grid import Grid, Scatter
+from ..model.quantity import Quantity
 from .content import Content, NotComparableError, Records, Subject, span, spread
-from .curves import Array, Quantity
+from .curves import Array
 from .style import DIVERGING, labelled, new_figure, printed
 
 if TYPE_CHECKING:
@@ -27,6 +29,38 @@ FLAT, FLAT_SHARE = 0.02, 0.1
 
 
 @dataclass(frozen=True, eq=False)
+class Layer:
+    """One map: whatever has a value at every place, such as a ``Grid`` or a ``Scatter``.
+
+    Attributes
+    ----------
+    label : str
+        Tells several in one picture apart.
+    over : two Quantity
+        Across and upwards.
+    of : Quantity
+        Of the values.
+    at : function of (x, y)
+        The value at a place.
+    """
+
+    label: str
+    over: tuple[Quantity, Quantity]
+    of: Quantity
+    at: Callable[[float, float], float]
+
+    @classmethod
+    def shown(cls, table: Grid | Scatter) -> Layer:
+        """Return a table in the unit that it is shown in."""
+        return cls(table.label, table.over, table.of.scaled(), lambda x, y: table.of.factor * table.at(x, y))
+
+    def minus(self, other: Layer) -> Layer:
+        """Return the difference."""
+        difference = replace(self, of=self.of.changed(), at=lambda x, y: self.at(x, y) - other.at(x, y))
+        return replace(difference, label=self.label or other.label)
+
+
+@dataclass(frozen=True, eq=False)
 class Map:
     """One or several maps over the same two quantities.
 
@@ -34,14 +68,10 @@ class Map:
     ----------
     subject : Subject
         What they are of.
-    x, y, z : Quantity
-        Across, upwards, and of the values.
+    layers : tuple of Layer
+        At least one, all over and of the same quantities, in the unit they are shown in.
     across, up : ndarray, shape (nx,) and (ny,)
         The grid that is drawn and listed, ascending.
-    layers : tuple of str
-        A name for each map; ("",) for a single one.
-    at : function of (x, y), shapes (nx,) and (ny,), → ndarray, shape (layers, ny, nx)
-        The values on any grid.
     points : ndarray, shape (n, 2)
         Where the values are given if not on the grid: marked.
     note : str
@@ -49,20 +79,35 @@ class Map:
     """
 
     subject: Subject
-    x: Quantity
-    y: Quantity
-    z: Quantity
+    layers: tuple[Layer, ...]
     across: Array
     up: Array
-    layers: tuple[str, ...]
-    at: Callable[[Array, Array], Array]
     points: Array
     note: str = ""
+
+    @property
+    def x(self) -> Quantity:
+        """Across."""
+        return self.layers[0].over[0]
+
+    @property
+    def y(self) -> Quantity:
+        """Upwards."""
+        return self.layers[0].over[1]
+
+    @property
+    def z(self) -> Quantity:
+        """Of the values."""
+        return self.layers[0].of
 
     @property
     def title(self) -> str:
         """Heading of the picture."""
         return f"{self.subject.title} ({self.note})" if self.note else self.subject.title
+
+    def at(self, across: Array, up: Array) -> Array:
+        """Return the values on any grid, shape (layers, ny, nx)."""
+        return np.array([[[layer.at(x, y) for x in across.tolist()] for y in up.tolist()] for layer in self.layers])
 
     def values(self) -> Array:
         """Return the values on the grid, shape (layers, ny, nx)."""
@@ -76,9 +121,9 @@ class Map:
         values = self.values()
         limit = float(np.abs(values).max()) or 1.0
         axes = figure.subplots(rows, columns, squeeze=False)
-        for layer, name, ax in zip(values, self.layers, axes.flat, strict=True):
-            mesh = plot_map(ax, self, layer, limit)
-            ax.set_title(printed(name or self.title), fontsize=12)
+        for layer, shown, ax in zip(self.layers, values, axes.flat, strict=True):
+            mesh = plot_map(ax, self, shown, limit)
+            ax.set_title(printed(layer.label or self.title), fontsize=12)
         figure.colorbar(mesh, ax=axes, aspect=30).set_label(str(self.z), fontsize=11)
         if len(self.layers) > 1:
             figure.suptitle(printed(self.title), fontsize=13)
@@ -86,10 +131,10 @@ class Map:
 
     def records(self) -> Records:
         """Return a row for each marked point, else for each place of the grid: place and value of each layer."""
-        names = [f"{layer or self.z.name} [{self.z.unit}]" for layer in self.layers]
+        names = [f"{layer.label or self.z.name} [{self.z.unit}]" for layer in self.layers]
         if len(self.points):
             places = self.points
-            values = np.array([self.at(x[np.newaxis], y[np.newaxis])[:, 0, 0] for x, y in self.points[..., np.newaxis]])
+            values = np.array([[layer.at(x, y) for layer in self.layers] for x, y in places.tolist()])
         else:
             places = np.stack(np.meshgrid(self.across, self.up), axis=-1).reshape(-1, 2)
             values = self.values().reshape(len(self.layers), -1).T
@@ -121,14 +166,15 @@ class Map:
             raise NotComparableError(f"{self.subject.title}: the two tables are over different quantities")
         if len({len(self.layers), len(other.layers)} - {1}) > 1:
             raise NotComparableError(f"{self.subject.title}: {len(self.layers)} maps against {len(other.layers)}")
-        mine, theirs = self.at, other.at
+        mine, theirs = (
+            content.layers * (max(len(self.layers), len(other.layers)) // len(content.layers))
+            for content in (self, other)
+        )
         return replace(
             self,
-            z=Quantity(f"Δ {self.z.name}", self.z.unit),
+            layers=tuple(b.minus(a) for a, b in zip(mine, theirs, strict=True)),
             across=np.union1d(self.across, other.across),
             up=np.union1d(self.up, other.up),
-            layers=max(self.layers, other.layers, key=len),
-            at=lambda x, y: theirs(x, y) - mine(x, y),
             points=np.empty((0, 2)),
             note="other − this one",
         )

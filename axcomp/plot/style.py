@@ -14,14 +14,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from .iso230 import DOWN, UP
-
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH, HEIGHT, DPI = 10.0, 5.6, 120
 """Inches and dots per inch: 1200 by 672 pixels."""
 
+UP, DOWN = "#0b62a4", "#c4511a"
+"""Colours of motion in positive and in negative direction."""
 COLOURS = (UP, DOWN, "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 """Of the lines in one picture, in their order; blue and vermilion are positive and negative motion everywhere."""
 MARKERS = ("o", "s", "^", "D", "v", "P")

@@ -10,16 +10,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..engine.tcp_model import TcpModel
+from ..model.curve import Curve
 from ..model.machine import Machine
+from ..model.quantity import Quantity, shown
 from ..model.volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric, is_angle
 from .bars import Bars
 from .content import Content, Subject
-from .curves import Array, Curves, Line, Quantity
+from .curves import Array, Curves
 from .field import Field
-from .maps import Map
+from .maps import Layer, Map
 
-MICRO = {False: (1e3, "µm"), True: (1e6, "µrad")}
-"""Factor and unit in which errors are shown, by whether they are angles: files have mm and rad."""
 SAMPLES = 41
 """Places along each side of a map."""
 ARROWS = 4
@@ -85,7 +85,7 @@ def tcp_field(machine: Machine, volumetric: Volumetric, model: TcpModel, tool_le
     positions = np.column_stack([grid, np.tile(rotary, (len(grid), 1))])
     errors = model.errors_and_deviations(positions, tool_length)[1]
     subject = Subject(str(volumetric.index), "volumetric", "TCP error")
-    return Field(subject, grid, MICRO[False][0] * errors, _tool(tool_length))
+    return Field(subject, grid, shown("mm").factor * errors, _tool(tool_length))
 
 
 def tcp_curves(
@@ -99,13 +99,15 @@ def tcp_curves(
     turned = np.linspace(*ranges[letter], TURNED)
     positions = np.tile(place, (len(turned), 1))
     positions[:, LETTERS.index(letter)] = turned
-    values = MICRO[False][0] * model.errors_and_deviations(positions, tool_length)[1]
+    of = Quantity("TCP error, actual − nominal", "mm")
+    values = model.errors_and_deviations(positions, tool_length)[1]
     where = ", ".join(f"{names.get(linear, linear)} = {place[d]:g}" for d, linear in enumerate(LINEAR))
     return Curves(
         Subject(str(volumetric.index), "volumetric", f"TCP error over {names[letter]}"),
-        _position(letter, names),
-        Quantity("TCP error, actual − nominal", "µm"),
-        tuple(Line(f"along {linear}", turned, values[:, d]) for d, linear in enumerate(LINEAR)),
+        tuple(
+            _line(turned, column, _position(letter, names), of, f"along {linear}")
+            for linear, column in zip(LINEAR, values.T, strict=True)
+        ),
         note=", ".join(word for word in (where, _tool(tool_length)) if word),
     )
 
@@ -132,7 +134,15 @@ def _errors_of_axis(volumetric: Volumetric, model: TcpModel, letter: str, names:
 
 
 def _position(letter: str, names: dict[str, str]) -> Quantity:
-    return Quantity(f"position of {names.get(letter, letter)}", "°" if letter in ROTARY else "mm")
+    return Quantity("position", "°" if letter in ROTARY else "mm", names.get(letter, letter))
+
+
+def _error(name: str, what: str = "error") -> Quantity:
+    return Quantity(f"{what}, actual − nominal", "rad" if is_angle(name) else "mm")
+
+
+def _line(x: Array, y: Array, over: Quantity, of: Quantity, label: str) -> Curve:
+    return Curve(tuple(x.tolist()), tuple(y.tolist()), over, of, label=label).shown()
 
 
 def _curves(
@@ -143,52 +153,39 @@ def _curves(
     tables: Sequence[ErrorTable],
     names: dict[str, str],
 ) -> Curves:
-    angular = is_angle(tables[0].name)
-    factor, unit = MICRO[angular]
+    over, of = _position(argument, names), _error(tables[0].name)
     lines = []
     for table in tables:
         x = np.unique([node[0] for node in table.nodes])
         places = np.zeros((len(x), len(LETTERS)))
         places[:, LETTERS.index(argument)] = x
-        lines.append(Line(table.name, x, factor * model.known_errors(places)[:, ERRORS.index(table.name)]))
-    over = "" if argument == letter else f" over {argument}"
-    what = "angular errors" if angular else "linear errors"
-    return Curves(
-        Subject(str(volumetric.index), "volumetric", f"{what} of {names.get(letter, letter)}{over}"),
-        _position(argument, names),
-        Quantity("error, actual − nominal", unit),
-        tuple(lines),
-        zero_if_absent=True,
-    )
+        lines.append(_line(x, model.known_errors(places)[:, ERRORS.index(table.name)], over, of, table.name))
+    what = "angular errors" if is_angle(tables[0].name) else "linear errors"
+    elsewhere = "" if argument == letter else f" over {argument}"
+    subject = Subject(str(volumetric.index), "volumetric", f"{what} of {names.get(letter, letter)}{elsewhere}")
+    return Curves(subject, tuple(lines), zero_if_absent=True)
 
 
 def _map(volumetric: Volumetric, model: TcpModel, table: ErrorTable, names: dict[str, str]) -> Map:
     """Return one error over its first two axes, the others in the middle of their ranges."""
-    factor, unit = MICRO[is_angle(table.name)]
     first, second, *others = list(table.arguments)
     columns = {argument: [node[place] for node in table.nodes] for place, argument in enumerate(table.arguments)}
     middle = {argument: 0.5 * (min(columns[argument]) + max(columns[argument])) for argument in others}
+    over, of = (_position(first, names), _position(second, names)), _error(table.name, table.name)
 
-    def at(across: Array, up: Array) -> Array:
-        places = np.zeros((len(up), len(across), len(LETTERS)))
-        for argument, position in middle.items():
-            places[..., LETTERS.index(argument)] = position
-        places[..., LETTERS.index(first)] = across
-        places[..., LETTERS.index(second)] = up[:, np.newaxis]
-        values = model.known_errors(places.reshape(-1, len(LETTERS)))[:, ERRORS.index(table.name)]
-        return factor * values.reshape(1, len(up), len(across))
+    def at(x: float, y: float) -> float:
+        place = np.zeros((1, len(LETTERS)))
+        for argument, position in (*middle.items(), (first, x), (second, y)):
+            place[0, LETTERS.index(argument)] = position
+        return of.factor * float(model.known_errors(place)[0, ERRORS.index(table.name)])
 
-    across, up = (np.linspace(min(columns[a]), max(columns[a]), SAMPLES) for a in (first, second))
+    x, y = (np.linspace(min(columns[argument]), max(columns[argument]), SAMPLES) for argument in (first, second))
     at_middle = ", ".join(f"{names.get(argument, argument)} = {position:g}" for argument, position in middle.items())
     return Map(
         Subject(str(volumetric.index), "volumetric", table.name),
-        _position(first, names),
-        _position(second, names),
-        Quantity(f"{table.name}, actual − nominal", unit),
-        across,
-        up,
-        ("",),
-        at,
+        (Layer("", over, of.scaled(), at),),
+        x,
+        y,
         np.array(list(zip(columns[first], columns[second], strict=True))) if not others else np.empty((0, 2)),
         f"at {at_middle}" if at_middle else "",
     )
@@ -198,10 +195,9 @@ def _constants(volumetric: Volumetric) -> list[Content]:
     """Return the errors that do not depend on any position."""
     found: list[Content] = []
     for angular, what in ((False, "linear"), (True, "angular")):
-        factor, unit = MICRO[angular]
         tables = [t for t in volumetric.errors if not t.arguments and is_angle(t.name) == angular]
         if tables:
+            of = _error(tables[0].name)
             subject = Subject(str(volumetric.index), "volumetric", f"constant {what} errors")
-            values = {table.name: factor * table.values[0] for table in tables}
-            found.append(Bars(subject, Quantity("error, actual − nominal", unit), values))
+            found.append(Bars(subject, of.scaled(), {table.name: of.factor * table.values[0] for table in tables}))
     return found

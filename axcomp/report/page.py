@@ -11,9 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis.budget.picture import budget_figure
-from ..analysis.judgement.curves import rate, unit_of
+from ..analysis.judgement.dynamics import rate
 from ..measurement.iso230 import SYMBOLS, Iso230Result
 from ..model.machine import AxisType
+from ..model.quantity import symbol
 from ..plot.content import Records
 from ..plot.page import document, overview, picture, section, table
 from ..plot.style import new_figure, printed
@@ -55,7 +56,7 @@ def _counted(report: Report) -> str:
 def _machine(report: Report) -> Chapter:
     rows: list[tuple[str | float, ...]] = []
     for axis in report.machine.axes:
-        unit = unit_of(axis)
+        unit = symbol(axis.unit)
         modulo = f"{axis.modulo.start:g} … {axis.modulo.end:g} {unit}" if axis.modulo is not None else ""
         limit = f"{axis.volumetric_limit:g} mm" if axis.volumetric_limit is not None else ""
         kinds = ", ".join(one.kind for one in axis.compensations)
@@ -116,12 +117,12 @@ def _dynamics(report: Report) -> Chapter | None:
         return None
     rows: list[tuple[str | float, ...]] = []
     for one in results:
-        unit = unit_of(one.axis)
+        unit = symbol(one.axis.unit)
         velocities = (one.added_velocity, one.jump_velocity, one.reversal_velocity)
         slope, switching, reversal = (f"{rate(value)} {unit}/s" if value else "" for value in velocities)
         accelerations = (one.added_acceleration, one.smooth_acceleration)
         kink, curvature = (f"{rate(value)} {unit}/s²" if value else "" for value in accelerations)
-        rows.append((one.name, f"{one.feed:g} {unit_of(one.over)}/s", slope, kink, curvature, switching, reversal))
+        rows.append((one.name, f"{one.feed:g} {symbol(one.over.unit)}/s", slope, kink, curvature, switching, reversal))
     columns = ("table", "feed", "slope adds", "a kink adds", "curvature adds", "switching adds", "a reversal adds")
     moving = [one for one in results if one.feed]
     pictures = "".join(_drawn(one.name, one.plot) for one in moving)
@@ -182,14 +183,14 @@ def _evaluation(result: Iso230Result) -> str:
         (f"{position:g}", *(number(float(c[i]), 0 if n[0] == "n" else 2) for n, c in zip(names, columns, strict=True)))
         for i, position in enumerate(result.positions)
     ]
-    unit = "mm" if result.position_unit == "mm" else "°"
     notes = "".join(f'<p class="note">{escape(note)}</p>' for note in result.notes)
     axis = f", axis {result.axis}" if result.axis else ""
     title = f"{Path(result.source).name}{axis}"
+    target = f"target [{symbol(result.position_unit)}]"
     return f"""<section><h3>{escape(title)}</h3>
 {_drawn(title, result.plot, heading=False)}
 {table(Records(("ISO 230-2:2014", result.unit), figures))}{notes}
-<details><summary>Targets</summary>{_wide(Records((f"target [{unit}]", *names), rows))}</details></section>"""
+<details><summary>Targets</summary>{_wide(Records((target, *names), rows))}</details></section>"""
 
 
 def _budget(report: Report) -> Chapter | None:

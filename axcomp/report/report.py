@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
 from typing import Any
 
 from ..analysis.budget.contributions import Budget, budget_of
@@ -14,7 +13,7 @@ from ..analysis.judgement.dynamics import CYCLE_TIME
 from ..bench.clock import Sample
 from ..bench.engine import bench_engine
 from ..engine.trajectory import InputFile
-from ..lists import Finding, Severity, read_machine
+from ..lists import Finding, Reading, Severity
 from ..measurement.iso230 import Iso230Result, evaluate
 from ..measurement.positioning import Positioning
 from ..model.machine import Machine
@@ -94,7 +93,7 @@ class Report:
 
 
 def make_report(
-    path: str | PathLike[str],
+    reading: Reading,
     *,
     readings: Sequence[Positioning] = (),
     measurements: Sequence[tuple[Positioning, str, str]] = (),
@@ -105,12 +104,12 @@ def make_report(
     repeats: int = REPEATS,
     notes: Sequence[str] = (),
 ) -> Report:
-    """Read, judge, evaluate and measure.
+    """Judge, evaluate and measure.
 
     Parameters
     ----------
-    path : path
-        As ``read_machine`` takes it.
+    reading : Reading
+        Of the machine.
     readings : sequence of Positioning
         To be evaluated by ISO 230-2.
     measurements : sequence of (Positioning, str, str)
@@ -131,10 +130,10 @@ def make_report(
     ValueError
         A measurement or an input file does not belong to the machine.
     """
-    machine, findings = read_machine(path)
+    machine = reading.machine
     judgement = judge(
         machine,
-        path,
+        reading,
         measurements=measurements,
         demand=demand,
         trajectory=None if given is None else given.columns,
@@ -148,12 +147,12 @@ def make_report(
         except (KeyError, ValueError) as error:
             said.append(f"There is no budget: {error.args[0] if error.args else error}.")
     return Report(
-        str(path),
+        str(reading.path),
         machine,
-        (*findings, *judgement.findings),
+        (*reading.findings, *judgement.findings),
         judgement,
         (*contents_of(machine), *volumetric_contents(machine, tool_length=tool_length)),
-        tuple(evaluate(reading) for reading in readings),
+        tuple(evaluate(measured) for measured in readings),
         budget,
         # No goal is set for a machine at large.
         tuple(bench_engine(machine, "this machine", repeats, math.inf)) if repeats > 0 and machine.axes else (),

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..kernel.adopt import adopt_axis, adopt_volumetrics, keep_declared, update_error
-from ..kernel.compensations import has_left_table
+from ..kernel.compensations import has_notice
 from ..kernel.cycle import cycle
 from ..kernel.initial import set_initial_inputs
 from ..kernel.record import zero
@@ -119,7 +119,7 @@ class Runtime:
         for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
             for kind in kinds_of(axis):
                 notice = f"axis {axis.name}: {kind.notice}"
-                if has_left_table(kind.number, state.compensation) and notice not in self._told:
+                if has_notice(kind.number, state.compensation) and notice not in self._told:
                     self._told.add(notice)
                     yield notice
 

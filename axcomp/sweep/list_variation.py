@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import os
 import re
-import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 from typing import Any
 
 from ..kinds import KINDS
-from ..kinds.parameter import ListKind, key_of
-from ..lists import Finding, Severity, read_machine
+from ..kinds.parameter import key_of
+from ..lists import Document, Reading, read_machine
 from ..lists.catalogue import SPELLINGS
-from ..lists.edit import edited
-from ..lists.grammar import decode, entries, number
+from ..lists.grammar import number, string
 from ..model.machine import Axis, Machine
 
 Value = bool | int | float | str
@@ -43,48 +40,43 @@ class ListEntry:
     entry: str
     scale: bool
 
-    def place(self, files: Mapping[str, bytes]) -> str:
+    def chosen(self, names: Iterable[str]) -> str:
         """Return which of the files is meant; ValueError if none or several are."""
         wanted = PurePosixPath(self.file.replace("\\", "/").lower()).parts
-        found = [name for name in files if PurePosixPath(name.lower()).parts[-len(wanted) :] == wanted]
+        known = sorted(names)
+        found = [name for name in known if PurePosixPath(name.lower()).parts[-len(wanted) :] == wanted]
         if len(found) != 1:
             said = "there are several lists" if found else "there is no list"
-            raise ValueError(f"{said} {self.file}; the machine's files are {', '.join(sorted(files))}")
+            raise ValueError(f"{said} {self.file}; the machine's files are {', '.join(known)}")
         return found[0]
 
-    def applied(self, data: bytes, value: Value) -> bytes:
-        """Return the list with the entry changed; ValueError with a sentence if that cannot be."""
-        text = decode(data)
-        if text is None:
-            raise ValueError(f"{self.file} is no text")
-        written = list(entries(text, lambda *_: None))
-        kind = _kind_of({entry.key.lower() for entry in written})
-        spelling = SPELLINGS[kind].get(key_of(self.entry))
-        if spelling is None:
-            raise ValueError(f"a list {kind.value} has no entry {self.entry}")
-        parameter = spelling.parameter
-        indices = tuple(int(index) if index else None for index in _INDEX.findall(self.entry))
-        lines, hit = [], False
-        for entry in written:
-            known = SPELLINGS[kind].get(entry.key.lower())
-            if known is None or known.parameter is not parameter:
-                continue
-            meant = all(wanted in {None, index} for wanted, index in zip(indices, entry.indices, strict=False))
-            hit = hit or meant
-            lines.append(f"{entry.name} {self._changed(entry.word, value) if meant else entry.text}")
-        if not hit:
-            if self.scale or None in indices:
-                raise ValueError(f"{self.file} has no entry {self.entry}")
-            lines.append(f"{self.entry} {_written(value)}")
-        return edited(data, lines, [parameter.name], "Varied", True, kind)
+    def applied(self, document: Document, value: Value) -> None:
+        """Change the entry in a list; ValueError with a sentence if that cannot be."""
+        kind = document.kind
+        row = None if kind is None else SPELLINGS[kind].get(key_of(self.entry))
+        if kind is None or row is None:
+            raise ValueError(f"{f'a list {kind.value}' if kind else self.file} has no entry {self.entry}")
+        wanted = tuple(int(index) if index else None for index in _INDEX.findall(self.entry))
+        meant = {
+            entry.indices: entry.value
+            for entry in document.entries
+            if entry.parameter is row.parameter
+            and all(index in {None, own} for index, own in zip(wanted, entry.indices, strict=False))
+        }
+        if not meant and (self.scale or None in wanted):
+            raise ValueError(f"{self.file} has no entry {self.entry}")
+        if not meant:
+            document.set(self.entry, _plain(value))
+        for indices, word in meant.items():
+            document.set(self.entry, self._changed(word, value), *indices)
 
-    def _changed(self, word: str, value: Value) -> str:
+    def _changed(self, word: str, value: Value) -> Value | Decimal:
         if not self.scale:
-            return _written(value)
+            return _plain(value)
         old = number(word)
         if old is None:
             raise ValueError(f"{self.entry} is {word!r}, which is no number to scale")
-        return str(Decimal(old) * Decimal(repr(value)))
+        return Decimal(old) * Decimal(repr(value))
 
 
 @dataclass(frozen=True)
@@ -155,19 +147,14 @@ def _tables(machine: Machine) -> list[str]:
     return names + [f"volumetric[{one.index}]" for one in machine.volumetric]
 
 
-def _kind_of(keys: set[str]) -> ListKind:
-    """Return the kind of list that knows most of some names."""
-    return max(ListKind, key=lambda kind: sum(key in SPELLINGS[kind] for key in keys))
+def _plain(value: Value) -> Value:
+    """Return a value without the quotes that a list would have."""
+    found = string(value) if isinstance(value, str) else None
+    return value if found is None or not found.quoted else found.value
 
 
-def _written(value: Value) -> str:
-    return str(int(value)) if isinstance(value, bool) else str(value)
-
-
-def read_files(
-    start: str, files: Mapping[str, bytes], changes: Sequence[tuple[ListEntry, Value]] = ()
-) -> tuple[Machine, list[tuple[Finding, str]]]:
-    """Return the machine that lists describe, with some entries changed, and what there is to say about it.
+def read_files(start: str, files: Mapping[str, bytes]) -> Reading:
+    """Return the machine that lists describe.
 
     Parameters
     ----------
@@ -175,28 +162,24 @@ def read_files(
         What ``read_machine`` is to read, relative to where the files lie.
     files : mapping of str to bytes
         By relative path, with ``/``.
-    changes : sequence of (ListEntry, Value)
-        In the order in which they are made.
+    """
+    return read_machine(start, documents=[Document(name, data) for name, data in files.items()])
 
-    Returns
-    -------
-    Machine, list of (Finding, str)
-        Each finding with its text, in which files are relative.
+
+def varied(reading: Reading, changes: Sequence[tuple[ListEntry, Value]]) -> Iterable[Document]:
+    """Return the lists of a machine with some entries changed, one after the other; the other lists are shared.
 
     Raises
     ------
     ValueError
         If an entry cannot be changed.
     """
-    changed = dict(files)
+    documents = {path.as_posix(): document for path, document in reading.documents.items()}
+    own = set()
     for entry, value in changes:
-        place = entry.place(changed)
-        changed[place] = entry.applied(changed[place], value)
-    with tempfile.TemporaryDirectory(prefix="axcomp-sweep-") as folder:
-        for name, data in changed.items():
-            path = Path(folder, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
-        machine, findings = read_machine(Path(folder, start))
-        relative: Callable[[Finding], str] = lambda finding: str(finding).replace(f"{folder}{os.sep}", "")  # noqa: E731
-        return machine, [(f, relative(f)) for f in findings if f.severity in {Severity.ERROR, Severity.WARNING}]
+        name = entry.chosen(documents)
+        if name not in own:
+            own.add(name)
+            documents[name] = documents[name].copy()
+        entry.applied(documents[name], value)
+    return documents.values()

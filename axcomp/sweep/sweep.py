@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +12,12 @@ import pandas as pd
 
 from ..fmu.archive import BuildError
 from ..fmu.packed_lists import FOLDER, packed_lists
+from ..lists import read_machine
 from .errors import SpecError
 from .journal import SUFFIX, Journal, keys_of
-from .list_variation import ListEntry, read_files
+from .list_variation import ListEntry, varied
 from .spec import ERROR, FINDINGS, MACHINE, RUN, Run, Spec
-from .task import Job, Row, Source, nothing_of, perform
+from .task import Job, Row, Source, notable, nothing_of, perform, reading_of
 
 Progress = Callable[[int, int], None]
 """Called with how many rows there are, and how many there are to be."""
@@ -80,17 +81,17 @@ def job_of(spec: Spec) -> tuple[Job, list[str]]:
             sources.append(Source.of("", {path.name: path.read_bytes()}))
             continue
         try:
-            place, packed = packed_lists(path)
+            start, packed = packed_lists(read_machine(path))
         except (BuildError, OSError) as error:
             raise SpecError(spec.file, MACHINE, str(error)) from None
         files = {name.removeprefix(f"{FOLDER}/"): data for name, data in packed.items()}
-        source = Source.of(place.removeprefix(f"{FOLDER}/") if place != FOLDER else ".", files)
-        machine, findings = read_files(source.start, files)
-        said += [text for _, text in findings]
-        if not machine.axes:
+        source = Source.of(start.removeprefix(f"{FOLDER}/") if start != FOLDER else ".", files)
+        reading = reading_of(source)
+        findings = notable(reading)
+        said += map(str, findings)
+        if not reading.machine.axes:
             raise SpecError(spec.file, MACHINE, f"{path}: there is no axis in these lists")
-        known = frozenset((finding.parameter, finding.code) for finding, _ in findings)
-        sources.append(Source(source.digest, source.start, files, known))
+        sources.append(replace(source, known=frozenset((finding.parameter, finding.code) for finding in findings)))
     _check_entries(spec, sources)
     return Job(tuple(sources), spec.trajectory, spec.results, spec.cycle_time, spec.duration), said
 
@@ -104,8 +105,7 @@ def _check_entries(spec: Spec, sources: list[Source]) -> None:
                 if source.is_fmu and setting.of_lists:
                     raise ValueError(f"{path} is an FMU, whose lists cannot be varied; expected a machine's lists")
                 if isinstance(setting.target, ListEntry):
-                    file = setting.target.place(source.files)
-                    setting.target.applied(source.files[file], values[0])
+                    varied(reading_of(source), [(setting.target, values[0])])
             except ValueError as error:
                 raise SpecError(spec.file, f'vary."{setting.key}"', str(error)) from None
 

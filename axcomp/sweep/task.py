@@ -21,8 +21,9 @@ import numpy as np
 
 from ..engine.engine import Engine
 from ..engine.trajectory import LIMITS, Columns, InputFile, Motion, completed
+from ..lists import Finding, Reading, Severity, read_machine
 from ..model.machine import Machine
-from .list_variation import ListEntry, Table, Value, read_files
+from .list_variation import ListEntry, Table, Value, read_files, varied
 from .reductions import Column, Reduction
 from .settings import PARAMETERS
 from .spec import ERROR, FINDINGS, Run
@@ -151,10 +152,24 @@ def _given(run: Run, columns: Columns, known: set[str], cycle_time: float) -> Co
 @lru_cache(MACHINES_KEPT)
 def _machine(source: Source, entries: tuple[tuple[ListEntry, Value], ...]) -> tuple[Machine, str]:
     """Return a machine and what its changes have given rise to."""
-    machine, findings = read_files(source.start, source.files, entries)
-    if not machine.axes:
-        raise ValueError("; ".join(["there is no axis in the lists", *(text for _, text in findings)]))
-    return machine, "\n".join(text for f, text in findings if (f.parameter, f.code) not in source.known)
+    reading = reading_of(source)
+    if entries:
+        reading = read_machine(reading.path, documents=varied(reading, entries))
+    findings = notable(reading)
+    if not reading.machine.axes:
+        raise ValueError("; ".join(["there is no axis in the lists", *map(str, findings)]))
+    return reading.machine, "\n".join(str(f) for f in findings if (f.parameter, f.code) not in source.known)
+
+
+@lru_cache(MACHINES_KEPT)
+def reading_of(source: Source) -> Reading:
+    """Return what the lists of a source say as they are: a run reads again only what it changes."""
+    return read_files(source.start, source.files)
+
+
+def notable(reading: Reading) -> list[Finding]:
+    """Return errors and warnings about lists."""
+    return [finding for finding in reading.findings if finding.severity is not Severity.INFO]
 
 
 def _simulate_fmu(

@@ -241,7 +241,7 @@ static void give_notices(Instance *instance)
     for (int i = 0; i < instance->lists->tables.axis_count; i++) {
         for (int kind = 0; kind < KINDS; kind++) {
             bool told = (instance->told[kind] >> i & 1u) != 0;
-            if (!told && axcomp_has_left_table(kind, &instance->memory.state.axis[i].compensation)) {
+            if (!told && axcomp_has_notice(kind, &instance->memory.state.axis[i].compensation)) {
                 instance->told[kind] |= 1u << i;
                 axcomp_say(instance, fmi2Warning, "axis %d: %s", instance->lists->tables.axis[i].number,
                            axcomp_notices[kind]);

@@ -415,6 +415,18 @@ static void forget(Lookup *lookup)
  * rounding leaves behind is no motion (semantics §4).
  */
 
+/* Return the sign of the way of a cycle, 0 where it is no motion. */
+static int32_t way_sign(double way)
+{
+    if (way >= STANDSTILL) {
+        return 1;
+    }
+    if (way <= -STANDSTILL) {
+        return -1;
+    }
+    return 0;
+}
+
 /* Tell whether a change of position is more than rounding. */
 static bool is_motion(double change)
 {
@@ -426,12 +438,7 @@ static void move_axis(AxisMotion *motion, double setpoint, double velocity, doub
 {
     double way = velocity * cycle_time;
     double change = nearest(setpoint - motion->counted, modulo_range);
-    motion->sign = 0;
-    if (way >= STANDSTILL) {
-        motion->sign = 1;
-    } else if (way <= -STANDSTILL) {
-        motion->sign = -1;
-    }
+    motion->sign = way_sign(way);
     motion->moving = motion->sign != 0 || is_motion(change);
     if (motion->moving) {
         motion->direction = motion->sign;
@@ -729,6 +736,7 @@ static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int3
  * I = scaling · sign(v) · F(|v|) · w_before · w_after, then delayed by delay_cycles. w_after builds the current up over
  * position_delay after a reversal (the start counts as one), w_before takes it down over the last reversal_lookahead
  * cycles before one: the cycle n cycles before the last one of the old direction has w_before = n/reversal_lookahead.
+ * What is to come is in the delay line, or given, or predicted.
  */
 
 /* Return w_after = min(1, |s − s_reversal| / position_delay); once 1 it stays until the next reversal. */
@@ -752,6 +760,17 @@ static void decay_delayed(const FrictionTable *table, FrictionState *state)
         at = at > 0 ? at - 1 : DELAY_LINE - 1;
         state->line[at] = state->line[at] * n / table->lookahead;
     }
+}
+
+/* Return w_before from the velocities to come: exact; an axis that only slows down is not weighted. */
+static double decay_known(const FrictionTable *table, const FrictionInputs *given, int32_t sign, double cycle_time)
+{
+    for (int32_t n = 0; n < table->lookahead; n++) {
+        if (way_sign(given->velocity_ahead[n] * cycle_time) == -sign) {
+            return (double)n / table->lookahead;
+        }
+    }
+    return 1.0;
 }
 
 /* Return w_before when velocity and acceleration stay as they are: the velocity crosses 0 after t = −v/a. */
@@ -781,7 +800,7 @@ static double delayed(const FrictionTable *table, FrictionState *state, double c
 
 /* Return the current of this cycle at full weight, and keep the delay line. */
 static double friction_current(const double *pool, const FrictionTable *table, FrictionState *state,
-        const AxisMotion *motion, double cycle_time)
+        const FrictionInputs *given, const AxisMotion *motion, double cycle_time)
 {
     int32_t sign = motion->sign;
     if (sign != 0 && sign != state->direction) {
@@ -799,7 +818,12 @@ static double friction_current(const double *pool, const FrictionTable *table, F
         current = table->scaling * sign * curve_value(pool, &table->curve, fabs(motion->velocity), &state->lookup);
         current = current * build_up(table, state, motion->setpoint);
         if (table->delay < table->lookahead) {
-            current = current * decay_predicted(table, motion->velocity, motion->acceleration, cycle_time);
+            if (given->ahead_known) {
+                current = current * decay_known(table, given, sign, cycle_time);
+            } else {
+                state->predicted = true;
+                current = current * decay_predicted(table, motion->velocity, motion->acceleration, cycle_time);
+            }
         }
     }
     if (state->since_reversal < table->lookahead) {
@@ -1044,7 +1068,8 @@ static bool temperature_fits(const TemperatureTable *table)
  * `position`: the setpoint with all that was added before.
  */
 static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const Motion *motion, int32_t axis, double position, double cycle_time)
+        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis,
+        double position, double cycle_time)
 {
     if (kind == CROSS) {
         return cross_value(pool, &tables->cross, &states->cross, motion);
@@ -1067,7 +1092,8 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
     if (kind == BACKLASH) {
         return backlash_value(&tables->backlash, &states->backlash, motion->axis[axis].direction);
     }
-    return friction_current(pool, &tables->friction, &states->friction, &motion->axis[axis], cycle_time);
+    return friction_current(pool, &tables->friction, &states->friction, &given->friction, &motion->axis[axis],
+            cycle_time);
 }
 
 /* Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0. */
@@ -1095,7 +1121,7 @@ static double settled_value(int32_t kind, const double *pool, const Compensation
     return 0.0;
 }
 
-/* Tell whether a kind is given something besides the motion. */
+/* Tell whether a kind is given what its values change by. */
 static bool has_inputs(int32_t kind)
 {
     return kind == TEMPERATURE;
@@ -1111,10 +1137,13 @@ static double renew(int32_t kind, const CompensationTables *tables, Compensation
     return 0.0;
 }
 
-/* Tell whether a kind has been used where its table says nothing: the machine's user should know. */
-bool axcomp_has_left_table(int32_t kind, const CompensationStates *states)
+/* Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know. */
+bool axcomp_has_notice(int32_t kind, const CompensationStates *states)
 {
-    return kind == CROSSTALK && states->crosstalk.outside;
+    if (kind == CROSSTALK) {
+        return states->crosstalk.outside;
+    }
+    return kind == FRICTION && states->friction.predicted;
 }
 
 /* Set the inputs to what they are before anybody sets them. */
@@ -2203,9 +2232,9 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
  */
 
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
-static void accept(const AxisTable *table, AxisState *axis, AxisMotion *motion, const AxisInputs *given,
-        double cycle_time)
+static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, const Inputs *inputs, int32_t i)
 {
+    const AxisInputs *given = &inputs->axis[i];
     axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
             && -LARGEST < given->velocity && given->velocity < LARGEST
             && -LARGEST < given->acceleration && given->acceleration < LARGEST
@@ -2213,9 +2242,17 @@ static void accept(const AxisTable *table, AxisState *axis, AxisMotion *motion, 
     if (!axis->held) {
         if (!axis->started) {
             motion->counted = given->setpoint;
+            motion->setpoint = given->setpoint;
         }
-        move_axis(motion, given->setpoint, given->velocity, cycle_time, table->modulo_range);
-        motion->acceleration = given->acceleration;
+        double velocity = given->velocity;
+        double acceleration = given->acceleration;
+        if (inputs->derive_motion) {
+            double way = nearest(given->setpoint - motion->setpoint, tables->axis[i].modulo_range);
+            velocity = way / tables->cycle_time;
+            acceleration = (velocity - motion->velocity) / tables->cycle_time;
+        }
+        move_axis(motion, given->setpoint, velocity, tables->cycle_time, tables->axis[i].modulo_range);
+        motion->acceleration = acceleration;
     }
 }
 
@@ -2242,8 +2279,8 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
         if (kind == LEADSCREW) {
             position = position + (correction + axis->shift.before.now);
         }
-        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &state->motion, i, position,
-                tables->cycle_time);
+        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation,
+                &state->motion, i, position, tables->cycle_time);
     }
     double contribution = contribution_of(switching, own, value);
     if (!axis->settled && kind < FRICTION) {
@@ -2288,7 +2325,7 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
 {
     bool references_changed = false;
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(&tables->axis[i], &state->axis[i], &state->motion.axis[i], &inputs->axis[i], tables->cycle_time);
+        accept(tables, &state->axis[i], &state->motion.axis[i], inputs, i);
         if (inputs->axis[i].referenced != state->axis[i].referenced) {
             state->axis[i].referenced = inputs->axis[i].referenced;
             references_changed = true;

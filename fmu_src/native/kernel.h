@@ -181,6 +181,12 @@ typedef struct {
     double modulo_range;  /* of the axis; 0: it does not count modulo */
 } FrictionTable;
 
+/* What is known of the motion to come. */
+typedef struct {
+    bool ahead_known;
+    double velocity_ahead[LOOKAHEAD_MAX];  /* of the next cycles */
+} FrictionInputs;
+
 /* What the friction compensation remembers. */
 typedef struct {
     Lookup lookup;
@@ -189,6 +195,7 @@ typedef struct {
     bool built_up;  /* the axis has gone position_delay since */
     int32_t since_reversal;  /* cycles, at most lookahead */
     int32_t head;  /* where the delay line is written next */
+    bool predicted;  /* a reversal has been predicted from velocity and acceleration, for want of velocities to come */
     double line[DELAY_LINE];
 } FrictionState;
 
@@ -285,6 +292,7 @@ typedef struct {
 /* What the compensations of an axis are given besides its motion. */
 typedef struct {
     TemperatureInputs temperature;
+    FrictionInputs friction;
 } CompensationInputs;
 
 /* ================================== shift =================================== */
@@ -509,6 +517,7 @@ typedef struct {
 typedef struct {
     bool reset;
     bool program_end;
+    bool derive_motion;  /* velocities and accelerations are not given: they follow from the setpoints */
     AxisInputs axis[AXES];
     double tool_length;  /* mm */
     VolumetricInputs volumetric[VOLUMETRICS];
@@ -544,8 +553,8 @@ typedef struct {
 extern "C" {
 #endif
 
-/* Tell whether a kind has been used where its table says nothing: the machine's user should know. */
-AXCOMP_API bool axcomp_has_left_table(int32_t kind, const CompensationStates *states);
+/* Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know. */
+AXCOMP_API bool axcomp_has_notice(int32_t kind, const CompensationStates *states);
 
 /* Set inputs that are all 0 to what they are at the start. */
 AXCOMP_API void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs);

@@ -9,7 +9,16 @@ from hypothesis import strategies as st
 from axcomp.convert.table import CompensationTable
 
 UNITS_PER_MM = 10_000
+HALF_RESOLUTION = {"mm": 0.05, "deg": 0.18}
+"""Half of 0.1 µm in µm, half of 0.0001° in ″."""
 NAMES = st.sampled_from(["X", "Y1", "AX3", "C"])
+
+
+def changed(table: CompensationTable, **other: Any) -> CompensationTable:
+    """Return a table with other positions, values, axes, period or units."""
+    known: dict[str, Any] = {name: getattr(table, name) for name in ("axis", "over", "positions", "period")}
+    known |= {"positive": table.positive.y, "negative": None if table.negative is None else table.negative.y}
+    return CompensationTable.of(**{**known, "unit": table.unit, "over_unit": table.over_unit, **other})
 
 
 def _listed(units: list[int]) -> tuple[float, ...]:
@@ -51,7 +60,7 @@ def tables(
     values = st.lists(st.integers(-5000, 5000), min_size=len(places), max_size=len(places))
     both = draw(st.booleans()) if bilateral is None else bilateral
     unit: Any = "deg" if repeats else "mm"
-    return CompensationTable(
+    return CompensationTable.of(
         axis,
         over,
         _listed(places),

@@ -1,9 +1,9 @@
 """What another format cannot hold is refused in words, and what is wrong with a file is said with its line."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import pytest
+from drawn_tables import changed
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -11,18 +11,16 @@ from axcomp.convert.formats import FORMATS, Options, recognized, written
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.resample import on_equidistant_points
 from axcomp.convert.table import CannotHoldError, CompensationTable, FormatError, beginning_at, largest_difference
-from axcomp.kinds import KINDS
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import KINDS, Friction, Plane
 from axcomp.model.machine import Axis, Machine
 
-UNEVEN = CompensationTable("X", "X", (0.0, 10.0, 30.0, 45.0), (0.0, 0.01, 0.02, 0.0))
-BILATERAL = CompensationTable("X", "X", (0.0, 10.0), (0.0, 0.01), (0.001, 0.012))
-CROSS = CompensationTable("Z", "X", (0.0, 10.0), (0.0, 0.01))
-TURNING = CompensationTable("C", "C", (0.0, 90.0, 180.0, 270.0), (0.0, 0.01, 0.02, 0.0), None, 360.0, "deg", "deg")
-HALF = replace(TURNING, positions=(0.0, 30.0, 60.0, 90.0), period=180.0)
-ROTARY = replace(TURNING, period=None)
-LONG = CompensationTable("X", "X", tuple(map(float, range(300))), (0.0,) * 300)
+UNEVEN = CompensationTable.of("X", "X", (0.0, 10.0, 30.0, 45.0), (0.0, 0.01, 0.02, 0.0))
+BILATERAL = CompensationTable.of("X", "X", (0.0, 10.0), (0.0, 0.01), (0.001, 0.012))
+CROSS = CompensationTable.of("Z", "X", (0.0, 10.0), (0.0, 0.01))
+TURNING = CompensationTable.of("C", "C", (0.0, 90.0, 180.0, 270.0), (0.0, 0.01, 0.02, 0.0), None, 360.0, "deg", "deg")
+HALF = changed(TURNING, positions=(0.0, 30.0, 60.0, 90.0), period=180.0)
+ROTARY = changed(TURNING, period=None)
+LONG = CompensationTable.of("X", "X", tuple(map(float, range(300))), (0.0,) * 300)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +52,7 @@ def test_more_points_than_the_control_reserves_are_refused() -> None:
 
 def test_as_many_points_as_the_control_reserves_are_taken_and_not_one_more() -> None:
     for count, room in ((300, 300), (2, 2)):
-        table = replace(LONG, positions=LONG.positions[:count], positive=LONG.positive[:count])
+        table = changed(LONG, positions=LONG.positions[:count], positive=LONG.positive.y[:count])
         assert len(on_equidistant_points(table, room, None).positions) == count
         with pytest.raises(CannotHoldError, match=f"{count} points; there is room for {room - 1}"):
             on_equidistant_points(table, room - 1, None)
@@ -77,19 +75,19 @@ def test_other_points_are_taken_only_within_the_stated_bound() -> None:
 @given(bound=st.floats(0.1, 5.0), values=st.lists(st.integers(-300, 300), min_size=4, max_size=4))
 @settings(max_examples=25, deadline=None)
 def test_resampling_never_exceeds_its_bound(bound: float, values: list[int]) -> None:
-    table = replace(UNEVEN, positive=tuple(value * 1e-4 for value in values))
+    table = changed(UNEVEN, positive=tuple(value * 1e-4 for value in values))
     assert largest_difference(table, on_equidistant_points(table, 2000, bound)).size <= bound + 1e-6
 
 
 def test_a_table_that_jumps_where_it_begins_again_cannot_begin_elsewhere() -> None:
-    jumping = replace(TURNING, positions=(90.0, 180.0, 270.0, 450.0), positive=(0.0, 0.01, 0.02, 0.03))
+    jumping = changed(TURNING, positions=(90.0, 180.0, 270.0, 450.0), positive=(0.0, 0.01, 0.02, 0.03))
     with pytest.raises(CannotHoldError, match="jumps at 90 deg"):
         beginning_at(jumping, 0.0)
 
 
 def test_a_file_with_values_finer_than_the_format_writes_is_refused_where_it_matters() -> None:
     # Four decimals move the only steep flank sideways by 0.00005 mm: 0.25 µm at 5 µm/µm.
-    steep = CompensationTable("X", "X", (0.0, 1.00005, 1.00105), (0.0, 0.0, 5.0))
+    steep = CompensationTable.of("X", "X", (0.0, 1.00005, 1.00105), (0.0, 0.0, 5.0))
     with pytest.raises(CannotHoldError, match="would differ by"):
         written([steep], "heidenhain", Options())
 
@@ -118,10 +116,10 @@ def test_every_kind_is_converted_or_refused() -> None:
 @pytest.mark.parametrize(
     ("tables", "because"),
     [
-        ([replace(CROSS, negative=(0.0, 0.0))], "bilateral"),
-        ([replace(TURNING, axis="Z", unit="mm")], "repeats every 360 deg"),
-        ([CROSS, replace(CROSS, over="Y")], "two cross tables"),
-        ([replace(TURNING, unit="mm", over_unit="mm")], "the lists repeat rotary axes only"),
+        ([changed(CROSS, negative=(0.0, 0.0))], "bilateral"),
+        ([changed(TURNING, axis="Z", unit="mm")], "repeats every 360 deg"),
+        ([CROSS, changed(CROSS, over="Y")], "two cross tables"),
+        ([changed(TURNING, unit="mm", over_unit="mm")], "the lists repeat rotary axes only"),
     ],
 )
 def test_what_the_lists_cannot_hold_is_said(tables: list[CompensationTable], because: str) -> None:

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 
 import pytest
-from drawn_tables import tables
+from drawn_tables import HALF_RESOLUTION, changed, tables
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.convert.formats import FORMATS, WITHIN, Options, written
+from axcomp.convert.formats import FORMATS, Options, written
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.table import CompensationTable, largest_difference
 
@@ -33,7 +33,7 @@ def test_a_table_comes_back(name: str, data: st.DataObject) -> None:
     table = data.draw(HOLDS[name]())
     _, result = written([table], name, Options())
     assert len(result) == 1
-    assert result[0].difference.size <= WITHIN
+    assert result[0].difference.size <= HALF_RESOLUTION[table.unit]
     assert (result[0].after.axis, result[0].after.over) == (table.axis, table.over)
     assert (result[0].after.unit, result[0].after.over_unit) == (table.unit, table.over_unit)
 
@@ -44,7 +44,7 @@ def test_a_table_comes_back(name: str, data: st.DataObject) -> None:
 def test_a_table_comes_back_from_inches(name: str, data: st.DataObject) -> None:
     table = data.draw(HOLDS[name]())
     text, result = written([table], name, Options(inch=True))
-    assert result[0].difference.size <= WITHIN
+    assert result[0].difference.size <= HALF_RESOLUTION[table.unit]
     if table.over_unit == "mm" and any(table.positions):
         assert text != FORMATS[name].write([table], Options())
 
@@ -54,7 +54,7 @@ def test_a_table_comes_back_from_inches(name: str, data: st.DataObject) -> None:
 def test_several_tables_share_a_cec_file(first: CompensationTable, second: CompensationTable) -> None:
     if {first.unit, second.unit, first.over_unit, second.over_unit} == {"mm"}:
         _, result = written([first, second], "cec", Options())
-        assert max(one.difference.size for one in result) <= WITHIN
+        assert max(one.difference.size for one in result) <= HALF_RESOLUTION["mm"]
 
 
 @given(table=tables(turning=False, cross=False))
@@ -74,8 +74,10 @@ def test_a_machine_gives_the_cross_table_it_was_made_with(table: CompensationTab
 def test_the_difference_is_symmetric_and_not_below_that_at_the_points(
     one: CompensationTable, other: CompensationTable
 ) -> None:
+    other = changed(other, unit=one.unit)
+    factor = {"mm": 1e3, "deg": 3600.0}[one.unit]
     difference = largest_difference(one, other)
     assert difference.size == largest_difference(other, one).size
     inner = [x for x in one.positions if one.period is None and other.period is None]
-    for x in inner:
-        assert difference.size >= 1e3 * abs(float(one.at(x)) - float(other.at(x))) - 1e-9
+    for here, there in zip(one.at(inner), other.at(inner), strict=True):
+        assert difference.size >= factor * abs(here - there) - 1e-9

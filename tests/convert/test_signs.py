@@ -10,8 +10,7 @@ from axcomp.convert.linuxcnc import read_linuxcnc, write_linuxcnc
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.plain_csv import read_csv
 from axcomp.convert.table import CompensationTable
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.runtime import Runtime
 
@@ -36,7 +35,7 @@ def _corrections(machine: Machine, axis: int, moved: int, path: list[float]) -> 
 def test_the_table_is_what_the_kernel_adds_to_the_setpoint() -> None:
     path = [-50.0, 0.0, 33.0, 100.0, 150.0, 200.0, 260.0]
     assert np.allclose(_corrections(LEADSCREW, 0, 0, path), TOO_FAR.at(path), atol=1e-15)
-    assert TOO_FAR.at(100.0) == -0.010
+    assert TOO_FAR.positive.at(100.0) == -0.010
 
 
 def test_a_bilateral_table_has_its_second_curve_for_negative_motion() -> None:
@@ -52,7 +51,7 @@ def test_a_cross_table_is_added_as_it_stands() -> None:
     table = tables_of(machine)[0]
     path = [0.0, 40.0, 150.0, 250.0]
     assert np.allclose(_corrections(machine, 1, 0, path), table.at(path), atol=1e-15)
-    assert (table.axis, table.over, table.at(100.0)) == ("Z", "X", 0.02)
+    assert (table.axis, table.over, table.positive.at(100.0)) == ("Z", "X", 0.02)
 
 
 def test_enc_comp_holds_the_error_because_it_is_added_to_the_measured_position() -> None:
@@ -62,7 +61,7 @@ def test_enc_comp_holds_the_error_because_it_is_added_to_the_measured_position()
     # The control moves until measured + value = programmed. Without a value the axis stands 10 µm too far when its
     # encoder shows what is programmed; with it the encoder stands at programmed − value.
     encoder = 100.0 - 0.010
-    assert encoder - 100.0 == pytest.approx(TOO_FAR.at(100.0))
+    assert encoder - 100.0 == pytest.approx(TOO_FAR.positive.at(100.0))
 
 
 def test_the_manuals_example_of_enc_comp_is_read() -> None:
@@ -72,13 +71,11 @@ def test_the_manuals_example_of_enc_comp_is_read() -> None:
     text = "\n".join(["%_N_AX_EEC_INI", "CHANDATA(1)", *blocks, *ends, "$AA_ENC_COMP_IS_MODULO[0,X1]=0", "M17"])
     [table] = read_enc_comp(text)
     assert len(table.positions) == 801
-    assert table.at([-300.0, -200.0, -199.5, -198.0, 600.0]).tolist() == pytest.approx(
-        [-0.003, -0.003, -0.0065, -0.012, 0.0]
-    )
+    assert table.at([-300.0, -200.0, -199.5, -198.0, 600.0]) == pytest.approx([-0.003, -0.003, -0.0065, -0.012, 0.0])
 
 
 def test_cec_holds_the_correction_because_it_is_added_to_the_setpoint() -> None:
-    cross = CompensationTable("Z1", "Y1", (-400.0, 0.0, 400.0), (0.02, 0.0, 0.02))
+    cross = CompensationTable.of("Z1", "Y1", (-400.0, 0.0, 400.0), (0.02, 0.0, 0.02))
     text = write_cec([cross])
     assert "$AN_CEC[0,0]=0.02\n" in text
     assert "$AN_CEC_INPUT_AXIS[0]=(Y1)\n" in text
@@ -89,7 +86,7 @@ def test_cec_holds_the_correction_because_it_is_added_to_the_setpoint() -> None:
 
 
 def test_two_cec_tables_with_directions_are_a_bilateral_leadscrew() -> None:
-    bilateral = CompensationTable("X", "X", POSITIONS, (0.0, -0.01, -0.03), (0.001, -0.02, -0.03))
+    bilateral = CompensationTable.of("X", "X", POSITIONS, (0.0, -0.01, -0.03), (0.001, -0.02, -0.03))
     text = write_cec([bilateral])
     assert [text.count(f"$AN_CEC_DIRECTION[{t}]={d}\n") for t, d in ((0, 1), (1, -1))] == [1, 1]
     assert read_cec(text) == [bilateral]
@@ -129,7 +126,7 @@ def test_a_modulo_table_of_sinumerik_follows_its_end_with_its_beginning() -> Non
 
 
 def test_heidenhain_holds_the_error_and_the_negative_direction_in_backlash() -> None:
-    bilateral = CompensationTable("X", "X", POSITIONS, (0.0, -0.01, -0.03), (0.001, -0.02, -0.03))
+    bilateral = CompensationTable.of("X", "X", POSITIONS, (0.0, -0.01, -0.03), (0.001, -0.02, -0.03))
     lines = write_heidenhain([bilateral]).splitlines()
     assert lines[0] == "BEGIN AXIS_X.COM MM"
     assert lines[1].split() == ["NR", "AXISPOS", "BACKLASH", "X"]
@@ -138,8 +135,8 @@ def test_heidenhain_holds_the_error_and_the_negative_direction_in_backlash() -> 
 
 
 def test_a_heidenhain_file_corrects_several_axes_over_one() -> None:
-    screw = CompensationTable("Y", "Y", (-90.0, 0.0, 410.0), (0.0, 0.001, -0.002))
-    sag = CompensationTable("Z", "Y", (-90.0, 200.0), (0.01, -0.02))
+    screw = CompensationTable.of("Y", "Y", (-90.0, 0.0, 410.0), (0.0, 0.001, -0.002))
+    sag = CompensationTable.of("Z", "Y", (-90.0, 200.0), (0.01, -0.02))
     text = write_heidenhain([screw, sag])
     found = read_heidenhain(text)
     assert [(table.axis, table.over) for table in found] == [("Y", "Y"), ("Z", "Y")]
@@ -155,7 +152,7 @@ def test_the_older_heidenhain_file_places_its_points_by_datum_and_distance() -> 
     [table] = read_heidenhain(text)
     assert (table.axis, table.over) == ("Z", "Y")
     assert table.positions == pytest.approx((-90.0, -83.4464))
-    assert table.positive == (-0.01, -0.02)
+    assert table.positive.y == (-0.01, -0.02)
     [screw] = read_heidenhain(write_itnc([TOO_FAR]))
     assert screw == TOO_FAR
 
@@ -175,15 +172,16 @@ def test_linuxcnc_adds_the_trim_to_the_commanded_position(comp_type: int) -> Non
 def test_linuxcnc_inches_become_millimetres() -> None:
     table = read_linuxcnc("0 0 0\n1 1.001 1.001\n", comp_type=0, axis="X", inch=True)
     assert table.positions == (0.0, 25.4)
-    assert table.positive[1] == pytest.approx(-0.0254)
+    assert table.positive.y[1] == pytest.approx(-0.0254)
     assert table.negative is None
 
 
 def test_csv_tells_its_sign_by_the_name_of_the_column() -> None:
     [added] = read_csv("position,correction\n0,0\n100,0.01\n", axis="X")
     [wrong] = read_csv("Position;Error_positive;error_negative\n0;0;0,002\n100;-0,01;\n", axis="X")
-    assert added.positive == wrong.positive == (0.0, 0.01)
-    assert wrong.negative == (-0.002, 0.01)
+    assert added.positive.y == wrong.positive.y == (0.0, 0.01)
+    assert wrong.negative is not None
+    assert wrong.negative.y == (-0.002, 0.01)
 
 
 def test_lists_get_the_error_back() -> None:

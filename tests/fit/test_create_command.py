@@ -42,7 +42,7 @@ def test_all_kinds_go_into_one_list_one_after_the_other(folder, capsys):
         assert not err
     reading = read_machine("new.lis", strict=True)
     axis = reading.machine.axes[0]
-    assert {kind for kind, _ in axis.compensations()} == set(COMMANDS)
+    assert {one.kind for one in axis.compensations} == set(COMMANDS)
     assert (folder / "new.lis").read_text().count("kopf.achs_nr") == 1
 
 

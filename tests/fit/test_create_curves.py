@@ -194,7 +194,7 @@ def test_the_ends_of_a_full_turn_become_one_value(tmp_path):
     file = tmp_path / "c.lis"
     file.write_text("kopf.achs_nr 6\nkw.ssfk.modulo 1\n")
     targets = np.arange(0.0, 361.0, 30.0)
-    curve = np.concatenate([5.0 * np.sin(np.radians(targets[:-1])), [1.0]])
+    curve = 3.6 * np.concatenate([5.0 * np.sin(np.radians(targets[:-1])), [1.0]])
     creation = create_leadscrew(measured(targets, {1: curve}, unit="deg"), TargetList(file))
     assert creation.compensation.positive[0] == creation.compensation.positive[-1] == pytest.approx(0.0005)
     with pytest.raises(CannotCreateError, match="spans 360°"):

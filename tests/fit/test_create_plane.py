@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.fit.create_plane import Flatness, Grid, create_plane, read_flatness
+from axcomp.fit.create_plane import Flatness, create_plane, read_flatness
 from axcomp.fit.creation import LEFT_OUT, PREDICTED, CannotCreateError, Options
 from axcomp.fit.target_list import TargetList
 from axcomp.lists import read_machine
@@ -109,15 +109,6 @@ def test_what_a_compensation_left_is_put_on_top_of_it(tmp_path):
     residual = over_grid(targets1, targets2, np.full((101, 101), 2.0))
     new = create_plane(residual, TargetList(lists / "achskw1.lis"), Options(on_top=True)).compensation
     assert np.array(new.corrections) == pytest.approx(np.array(old.corrections) - 0.002, abs=1e-6)
-
-
-def test_interpolation_is_that_of_scipy():
-    random = np.random.default_rng(5)
-    grid = Grid((-3.0, 5.0), (2.0, 0.5), random.normal(size=(4, 7)))
-    q1, q2 = random.uniform(-3.0, 9.0, 50), random.uniform(5.0, 6.5, 50)
-    points = (5.0 + 0.5 * np.arange(4), -3.0 + 2.0 * np.arange(7))
-    assert grid.at(q1, q2) == pytest.approx(RegularGridInterpolator(points, grid.values)(np.column_stack([q2, q1])))
-    assert grid.at(np.array([-99.0]), np.array([99.0])) == pytest.approx(grid.values[-1, 0])
 
 
 def test_what_cannot_be_is_refused(tmp_path, new_list):

@@ -66,12 +66,12 @@ def folder(tmp_path):
 
 def corrected_by(found, measurement):
     """Return the positions of a measurement as the kernel corrects them."""
-    tables = compile_tables(Machine(tuple(Axis(n, name) for name, n in found.axes), (replace(found, index=0),)))
+    tables, pool = compile_tables(Machine(tuple(Axis(n, name) for name, n in found.axes), (replace(found, index=0),)))
     table = tables.volumetric[0]
     corrected = measurement.positions.copy()
     for place, position, tool in zip(corrected, measurement.positions.tolist(), measurement.tool_lengths, strict=True):
         errors, correction = zeros(72), zeros(3)
-        errors_at(tables.pool, table, position, errors)
+        errors_at(pool, table, position, errors)
         assert correction_at(table, position, float(tool), errors, correction)
         place[:3] += correction
     return corrected

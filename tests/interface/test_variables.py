@@ -12,9 +12,7 @@ from axcomp.interface.variable import with_causality
 from axcomp.interface.variables import AXIS_DECLARATIONS, by_name, slot_of, variables_of
 from axcomp.kernel.record import fields_of, zero
 from axcomp.kernel.records import AxisInputs, AxisOutputs
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.model.machine import Axis, AxisType, Machine
 from axcomp.runtime.compile import compile_tables
 from axcomp.runtime.runtime import initial_inputs

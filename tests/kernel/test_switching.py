@@ -9,13 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
 from axcomp.model.machine import Axis, Machine
 
 N = 6

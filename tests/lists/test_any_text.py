@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from strategies import machines
 
 from axcomp.kinds.parameter import ListKind, Parameter
-from axcomp.lists import Reading, list_files, read_machine, write_machine
+from axcomp.lists import Reading, read_machine, write_machine
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.model.machine import AXES_MAX, Machine
 from axcomp.runtime.compile import compile_tables
@@ -34,8 +34,8 @@ def texts(kind: ListKind) -> st.SearchStrategy[str]:
 
 def check(reading: Reading) -> None:
     """Check what always holds of a reading: it compiles, its axes are told apart, findings are sentences."""
-    machine, findings = reading
-    if any(True for axis in machine.axes for _ in axis.compensations()):
+    machine, findings = reading.machine, reading.findings
+    if any(axis.compensations for axis in machine.axes):
         compile_tables(machine)
     assert len(machine.axes) <= AXES_MAX
     assert len({axis.number for axis in machine.axes}) == len({axis.name for axis in machine.axes}) == len(machine.axes)
@@ -49,7 +49,7 @@ def read_files(files: dict[str, bytes]) -> Reading:
         for name, data in files.items():
             Path(folder, name).write_bytes(data)
         reading = read_machine(folder)
-        assert set(list_files(folder)) <= {Path(folder, name) for name in files}
+        assert set(read_machine(folder).documents) <= {Path(folder, name) for name in files}
     return reading
 
 

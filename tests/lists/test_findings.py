@@ -40,7 +40,7 @@ def test_lists_provoke_a_finding_at_its_place_and_the_rest_keeps_working(case: C
         assert finding.message.endswith(".")
         assert finding.file
     axis = next((axis for axis in reading.machine.axes if axis.number == 1), None)
-    assert (None if axis is None else tuple(kind for kind, _ in axis.compensations())) == (
+    assert (None if axis is None else tuple(one.kind for one in axis.compensations)) == (
         case.kinds if case.kinds or axis is not None else None
     )
 
@@ -92,7 +92,7 @@ def test_every_code_is_provoked() -> None:
 def test_the_lists_these_cases_begin_with_are_faultless(text: str, kind: str, read_lists: ReadLists) -> None:
     reading = read_lists({"achskw1.lis": text})
     assert reading.findings == ()
-    assert [found for found, _ in reading.machine.axes[0].compensations()] == [kind]
+    assert list(reading.machine.axes[0].kinds) == [kind]
 
 
 def test_the_same_fault_in_every_row_is_counted_not_repeated(read_lists: ReadLists) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from axcomp.lists import Reading, list_files, read_machine
+from axcomp.lists import Reading, read_machine
 from axcomp.model.machine import AxisType, ModuloRange
 
 ReadLists = Callable[..., Reading]
@@ -32,7 +32,7 @@ def numbers(reading: Reading) -> list[int]:
 
 
 def acting(reading: Reading) -> dict[int, list[str]]:
-    return {axis.number: [kind for kind, _ in axis.compensations()] for axis in reading.machine.axes}
+    return {axis.number: [one.kind for one in axis.compensations] for axis in reading.machine.axes}
 
 
 @pytest.mark.parametrize("path", ["", "hochlauf.lis"])
@@ -223,7 +223,7 @@ def test_the_files_of_a_machine_can_be_listed(read_lists: ReadLists, tmp_path: P
         "other.lis": "",
     }
     read_lists(files)
-    assert [path.name for path in list_files(tmp_path)] == ["hochlauf.lis", "all.lis", "md.lis", "kw.lis"]
+    assert [path.name for path in read_machine(tmp_path).documents] == ["hochlauf.lis", "all.lis", "md.lis", "kw.lis"]
 
 
 def test_masters_need_an_axis_list_where_there_are_axis_lists(read_lists: ReadLists) -> None:

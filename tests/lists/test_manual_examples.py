@@ -144,7 +144,7 @@ def test_excerpt_of_the_axis_list_activates_the_leadscrew_compensation(read_list
     }
     reading = read_lists(files)
     assert codes(reading) == ["AXC-ELISION", "AXC-ELISION"]
-    assert [kind for kind, _ in reading.machine.axes[0].compensations()] == ["leadscrew"]
+    assert [one.kind for one in reading.machine.axes[0].compensations] == ["leadscrew"]
 
 
 @pytest.mark.parametrize("position_delay", [30, 10])

@@ -9,9 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from axcomp.kinds.parameter import Quantity
+from axcomp.kinds.units import Gear, convert, equidistant, in_list
 from axcomp.lists import Reading
-from axcomp.lists.format import in_list
-from axcomp.lists.values import Gear, convert, equidistant
 
 ReadLists = Callable[..., Reading]
 

@@ -168,7 +168,7 @@ def test_the_picture_shows_means_bands_and_readings():
     assert ax.get_xlabel() == "target position [mm]"
     assert "µm" in ax.get_ylabel()
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["x̄↑ ± 2s↑", "x̄↑", "x̄↓ ± 2s↓", "x̄↓", "x̄"]
-    assert evaluate(measurement(WORKED, "deg")).plot().get_ylabel().endswith("[0.001°]")
+    assert evaluate(measurement(WORKED, "deg")).plot().get_ylabel().endswith("[″]")
 
 
 def test_uncertainties_are_those_calculated_by_hand():

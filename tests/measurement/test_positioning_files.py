@@ -89,8 +89,8 @@ def test_tables_are_read_in_every_form(file, text):
 def test_angles_make_a_rotary_axis(file):
     measurement = read_positioning(file("target [°],run,direction,deviation [arcsec]\n30,1,+,3.6\n"))
     assert measurement.unit == "deg"
-    assert measurement.deviation_unit == "0.001°"
-    assert np.array(readings(measurement)) == pytest.approx(np.array([(30.0, 1, 1, 1.0)]))
+    assert measurement.deviation_unit == "″"
+    assert np.array(readings(measurement)) == pytest.approx(np.array([(30.0, 1, 1, 3.6)]))
 
 
 @pytest.mark.parametrize(

@@ -13,9 +13,8 @@ from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv, write_expected
 from axcomp.demo.examples.machines import MACHINES
 from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.engine.engine import Engine
-from axcomp.kinds import KINDS
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
-from axcomp.kinds.parameter import Severity
+from axcomp.kinds import KINDS, Crosstalk, CrosstalkCurve
+from axcomp.kinds.parameter import ListKind, Severity
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
 from axcomp.plant.simulated import load_plant
@@ -67,8 +66,8 @@ def test_there_is_nothing_to_say_about_measured_lists(name: str) -> None:
 
 def test_three_axis_has_all_kinds_and_the_tables_it_promises() -> None:
     x, y, z = read_machine(models() / "three_axis").machine.axes
-    of_the_manuals = set(KINDS) - {"temperature", "backlash"}
-    assert {one.kind for axis in (x, y, z) for one in axis.compensations} == of_the_manuals
+    in_lists = {name for name, kind in KINDS.items() if kind.list_kind is ListKind.COMPENSATION}
+    assert {kind for axis in (x, y, z) for kind in axis.kinds} == in_lists
     assert isinstance(y.crosstalk, Crosstalk)
     assert isinstance(z.crosstalk, CrosstalkCurve)
     assert x.leadscrew is not None
@@ -189,7 +188,8 @@ def test_the_manuals_value_is_subtracted_in_either_direction() -> None:
 
 
 def test_the_manuals_examples_get_the_findings_they_deserve() -> None:
-    machine, findings = read_machine(MANUALS)
+    reading = read_machine(MANUALS)
+    machine, findings = reading.machine, reading.findings
     found = {(Path(finding.file).name, finding.line, finding.code) for finding in findings}
     assert ("achsmd2.lis", 3, "AXC-ELISION") in found
     assert ("achskw1.lis", 23, "AXC-ELISION") in found

@@ -9,13 +9,15 @@ from scipy.interpolate import LinearNDInterpolator
 from shown_machines import MACHINE, MEASURED, PLANE, SCATTERED, SCREW, VOLUMETRIC, table
 
 from axcomp.engine.tcp_model import TcpModel
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
+from axcomp.model.curve import Curve
 from axcomp.model.machine import Axis, Machine
+from axcomp.model.quantity import Quantity
 from axcomp.model.volumetric import Volumetric
 from axcomp.plot.bars import Bars
 from axcomp.plot.content import Content, NotComparableError, Subject, spread
 from axcomp.plot.contents import contents_of
-from axcomp.plot.curves import Curves, Line, Quantity
+from axcomp.plot.curves import Curves
 from axcomp.plot.field import Field
 from axcomp.plot.maps import Map
 from axcomp.plot.volume import volumetric_contents
@@ -52,11 +54,11 @@ def test_a_leadscrew_shows_the_values_of_the_list_in_micrometres_and_their_diffe
     assert np.allclose(records.rows, [(0, 0, 1, -1), (10, 4, 6, -2), (40, -2, 1, -3)])
 
 
-def test_a_modulo_leadscrew_is_closed_and_in_millidegrees() -> None:
+def test_a_modulo_leadscrew_is_closed_and_in_seconds_of_arc() -> None:
     curves = _content(MACHINE, "C", "leadscrew")
-    assert curves.records().columns == ("position of C [°]", "both directions [m°]")
-    assert np.allclose(curves.records().rows, [(0, 0), (90, 1), (180, 3), (270, 2), (360, 0)])
-    assert np.allclose(curves.lines[0].at(np.array([-90.0, 315.0, 450.0])), [2.0, 1.0, 1.0])
+    assert curves.records().columns == ("position of C [°]", "both directions [″]")
+    assert np.allclose(curves.records().rows, [(0, 0), (90, 3.6), (180, 10.8), (270, 7.2), (360, 0)])
+    assert np.allclose(curves.lines[0].at(np.array([-90.0, 315.0, 450.0])), [7.2, 3.6, 3.6])
 
 
 def test_a_cross_table_shows_corrections_over_its_master() -> None:
@@ -134,7 +136,7 @@ def test_the_errors_of_a_measured_machine_are_shown_axis_by_axis() -> None:
     ]
     linear = found["linear errors of X"]
     assert isinstance(linear, Curves)
-    assert [line.name for line in linear.lines] == ["EXX", "EYX"]
+    assert [line.label for line in linear.lines] == ["EXX", "EYX"]
     assert np.allclose(linear.records().rows, [(-100, -10, 3), (0, 0, 2), (100, 20, 1)])
     angular = found["angular errors of X"]
     assert angular.records().columns == ("position of X [mm]", "ECX [µrad]")
@@ -252,6 +254,6 @@ def test_rows_are_spread_over_the_whole_table() -> None:
 
 
 def test_a_line_holds_its_ends() -> None:
-    line = Line("", np.array([0.0, 1.0]), np.array([2.0, 4.0]))
-    assert line.at(np.array([-1.0, 0.5, 9.0])).tolist() == [2.0, 3.0, 4.0]
+    quantity = Quantity("position", "mm")
+    assert Curve((0.0, 1.0), (2.0, 4.0), quantity, quantity).at(np.array([-1.0, 0.5, 9.0])) == [2.0, 3.0, 4.0]
     assert Subject("0", "volumetric", "TCP error").name == "0-volumetric-TCP-error"

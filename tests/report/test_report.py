@@ -16,10 +16,8 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.lists import write_machine
+from axcomp.kinds import Cross, Friction, Leadscrew
+from axcomp.lists import read_machine, write_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.model.volumetric import ErrorTable, Volumetric
@@ -160,7 +158,7 @@ def test_the_page_says_what_was_found(everything: Path, folder: Path) -> None:
 
 def test_chapters_without_content_are_left_out(tmp_path: Path) -> None:
     write_machine(Machine((Axis(1, "X"),)), tmp_path)
-    page = Page(make_report(tmp_path, repeats=0).html())
+    page = Page(make_report(read_machine(tmp_path), repeats=0).html())
     assert page.ids == ["machine", "findings", "tables"]
     assert "Nothing was found in the lists." in page.text
 
@@ -168,7 +166,7 @@ def test_chapters_without_content_are_left_out(tmp_path: Path) -> None:
 def test_names_from_lists_are_no_html(tmp_path: Path) -> None:
     axis = replace(MACHINE.axes[0], name="<b>x</b>&amp;", friction=None, volumetric_limit=None)
     write_machine(Machine((axis,)), tmp_path)
-    page = Page(make_report(tmp_path, repeats=0).html())
+    page = Page(make_report(read_machine(tmp_path), repeats=0).html())
     assert "b" not in page.tags
     assert not page.open
 

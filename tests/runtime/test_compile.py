@@ -11,13 +11,17 @@ from axcomp.kernel.compensations import CROSS, FRICTION
 from axcomp.kernel.compensations import PLANE as PLANE_KIND
 from axcomp.kernel.crosstalk import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
 from axcomp.kernel.fit import tables_fit
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import (
+    Backlash,
+    Cross,
+    Crosstalk,
+    CrosstalkCurve,
+    CrosstalkTest,
+    Friction,
+    Leadscrew,
+    Plane,
+    Temperature,
+)
 from axcomp.model.machine import CYCLE_TIME, Axis, AxisType, Machine, ModuloRange
 from axcomp.runtime.compile import CompileError, compile_tables
 

@@ -10,13 +10,7 @@ from hypothesis import strategies as st
 from strategies import machines
 
 from axcomp.kernel.compensations import BACKLASH, CROSS, CROSSTALK, FRICTION, LEADSCREW, PLANE, TEMPERATURE
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import CompileError
 from axcomp.runtime.runtime import Runtime, SnapshotError, UpdateError

@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 
 from axcomp import read_machine
+from axcomp.kinds.parameter import ListKind
+from axcomp.lists import Document
 from axcomp.model.companions import models
-from axcomp.sweep.list_variation import ListEntry, Table, read_files
+from axcomp.sweep.list_variation import ListEntry, Table, read_files, varied
 
 LIST = b"""\
 # a list
@@ -30,13 +32,18 @@ End
 FILES = {"lists/achskw1.lis": LIST}
 
 
+def reading_of(*changes):
+    reading = read_files("lists/achskw1.lis", FILES)
+    return read_machine(reading.path, documents=varied(reading, changes))
+
+
 def machine_of(*changes):
-    return read_files("lists/achskw1.lis", FILES, changes)[0].axes[0].leadscrew
+    return reading_of(*changes).machine.axes[0].leadscrew
 
 
 def test_without_changes_it_is_the_machine_of_the_files(tmp_path: Path) -> None:
     (tmp_path / "achskw1.lis").write_bytes(LIST)
-    assert read_files("lists/achskw1.lis", FILES)[0] == read_machine(tmp_path / "achskw1.lis").machine
+    assert read_files("lists/achskw1.lis", FILES).machine == read_machine(tmp_path / "achskw1.lis").machine
 
 
 def test_an_entry_is_set() -> None:
@@ -67,14 +74,15 @@ def test_changes_come_one_after_the_other() -> None:
 
 
 def test_the_rest_of_a_list_stays_as_it_is() -> None:
-    changed = ListEntry("x", "kw.ssfk.bilateral", False).applied(LIST, 0)
-    assert changed == LIST.replace(b"bilateral 1", b"bilateral 0")
+    document = Document("x", LIST, ListKind.COMPENSATION)
+    ListEntry("x", "kw.ssfk.bilateral", False).applied(document, 0)
+    assert document.to_bytes() == LIST.replace(b"bilateral 1", b"bilateral 0")
 
 
 def test_findings_name_the_list_and_no_temporary_folder() -> None:
-    _, findings = read_files("lists/achskw1.lis", FILES, [(ListEntry("achskw1.lis", "kw.ssfk.interval", False), -7)])
+    findings = reading_of((ListEntry("achskw1.lis", "kw.ssfk.interval", False), -7)).findings
     assert findings
-    assert all(text.startswith("lists/achskw1.lis:") and "tmp" not in text for _, text in findings)
+    assert all(str(finding).startswith("lists/achskw1.lis:") and "tmp" not in str(finding) for finding in findings)
 
 
 @pytest.mark.parametrize(
@@ -89,13 +97,13 @@ def test_findings_name_the_list_and_no_temporary_folder() -> None:
 )
 def test_changes_that_cannot_be_made_say_why(entry: ListEntry, value: float, said: str) -> None:
     with pytest.raises(ValueError, match=said):
-        read_files("lists/achskw1.lis", FILES, [(entry, value)])
+        reading_of((entry, value))
 
 
 def test_tables_of_every_kind_are_scaled() -> None:
     machine = read_machine(models() / "three_axis").machine
     for axis in machine.axes:
-        for kind, _ in axis.compensations():
+        for kind in (one.kind for one in axis.compensations):
             once = Table(f"{axis.name}.{kind}").applied(machine, 3.0)
             assert once != machine
             assert [a == b for a, b in zip(once.axes, machine.axes, strict=True)].count(False) == 1

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rigid_bodies import NUMBERS, machine_of, volumetric
 
 from axcomp.kinds.parameter import ListKind, Manual
-from axcomp.lists import ListError, Reading, list_files, read_machine, write_machine
+from axcomp.lists import ListError, Reading, read_machine, write_machine
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.model.machine import AxisType
 from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Interpolation, Volumetric
@@ -59,7 +59,8 @@ def found(reading: Reading) -> list[tuple[str, str, int]]:
 
 
 def test_a_machine_with_its_parameter_file_is_read(read: Callable[..., Reading], tmp_path: Path) -> None:
-    machine, findings = read()
+    reading = read()
+    machine, findings = reading.machine, reading.findings
     assert findings == ()
     (one,) = machine.volumetric
     assert one.axes == (("X", 1), ("Y", 2), ("Z", 3), ("B", 5), ("C", 6))
@@ -69,13 +70,14 @@ def test_a_machine_with_its_parameter_file_is_read(read: Callable[..., Reading],
         ErrorTable("EXX", (0.01, 0.03), "X", ((0.0,), (100.0,))),
         ErrorTable("EYX", (0.02, 0.04), "X", ((0.0,), (100.0,))),
     )
-    assert {path.name for path in list_files(tmp_path)} >= {"vol_comp0.lis", "errors.csv"}
+    assert {path.name for path in read_machine(tmp_path).documents} >= {"vol_comp0.lis", "errors.csv"}
 
 
 def test_every_entry_of_the_list_has_its_place(read: Callable[..., Reading]) -> None:
     lines = ["negate ZX", 'set_to_zero "Y"', "alternative_model 1", "manual_activation TRUE", "filter_steps 7"]
     lines += ["associate_to_channel 1", "diagnosis_file d.xlsx", "file_format[0] isg_csv", "interpolation auto"]
-    machine, findings = read(volumetric=lines)
+    reading = read(volumetric=lines)
+    machine, findings = reading.machine, reading.findings
     assert findings == ()
     one = machine.volumetric[0]
     assert (one.negate, one.set_to_zero, one.alternative_model, one.manual_activation) == ("XZ", "Y", True, True)
@@ -96,7 +98,8 @@ def test_the_catalogue_numbers_the_parameters_in_the_order_of_the_manual() -> No
 
 def test_describing_parameters_and_numbers_of_axes_come_from_the_files(read: Callable[..., Reading]) -> None:
     csv = "P0Z N0X N0Y N0Z PXC PZC IDZ IDC LNX LNY\n50 0 0.6 -0.8 1 2 -550 0.5 2 1\n#\nVXB VYB VZB\n0 0.6 0.8\n"
-    machine, findings = read(csv=csv)
+    reading = read(csv=csv)
+    machine, findings = reading.machine, reading.findings
     assert findings == ()
     one = machine.volumetric[0]
     assert one.axes[:2] == (("X", 2), ("Y", 1))
@@ -108,7 +111,8 @@ def test_describing_parameters_and_numbers_of_axes_come_from_the_files(read: Cal
 def test_etalon_and_csv_files_add_up(read: Callable[..., Reading]) -> None:
     lines = ["file[3] rotary.exc", "file_format[3] ETALON_EXCHANGE", "enable_splicing 1"]
     exc = "[HEADER]\nDate = -\n[EXC]\nGridpoints = {\n0 0.01\n90 0.02\n}\n[A0C]\nVALUE = 1e-5\n"
-    machine, findings = read(volumetric=lines, files={"rotary.exc": exc})
+    reading = read(volumetric=lines, files={"rotary.exc": exc})
+    machine, findings = reading.machine, reading.findings
     assert findings == ()
     tables = {table.name: table for table in machine.volumetric[0].errors}
     assert list(tables) == ["EXX", "EYX", "A0C", "EXC"]
@@ -120,7 +124,8 @@ def test_etalon_and_csv_files_add_up(read: Callable[..., Reading]) -> None:
 def test_splicing_closes_the_turn_so_that_nothing_jumps(read: Callable[..., Reading]) -> None:
     csv = "C EXC EAC\n" + "".join(f"{q} {0.01 * np.cos(np.radians(q))} 1e-5\n" for q in range(0, 360, 10))
     for splicing, step in ((0, 1e-5), (1, 1e-6)):
-        machine, findings = read(csv=csv, volumetric=[f"enable_splicing {splicing}"])
+        reading = read(csv=csv, volumetric=[f"enable_splicing {splicing}"])
+        machine, findings = reading.machine, reading.findings
         assert findings == ()
         runtime = Runtime(machine)
         values = []
@@ -134,14 +139,16 @@ def test_splicing_closes_the_turn_so_that_nothing_jumps(read: Callable[..., Read
 def test_splicing_leaves_other_tables_alone(read: Callable[..., Reading]) -> None:
     blocks = ["C EXC\n10 1e-5\n350 2e-5", "C X EYC\n0 0 1e-5\n0 9 1e-5\n90 0 0\n90 9 0", "C EZC\n0 1\n360 2"]
     csv = "\n#\n".join([*blocks, "X EXX\n0 1\n9 2\n"])
-    machine, _ = read(csv=csv, volumetric=["enable_splicing 1"])
+    reading = read(csv=csv, volumetric=["enable_splicing 1"])
+    machine = reading.machine
     sizes = {table.name: len(table.values) for table in machine.volumetric[0].errors}
     assert sizes == {"EXC": 2, "EYC": 4, "EZC": 2, "EXX": 2}
 
 
 def test_blocks_with_the_same_arguments_make_one_table(read: Callable[..., Reading]) -> None:
     csv = "Z X EXX\n0 0 0.1\n0 9 0.2\n#\nX Z EXX\n0 5 0.3\n9 5 0.4\n"
-    machine, findings = read(csv=csv)
+    reading = read(csv=csv)
+    machine, findings = reading.machine, reading.findings
     assert findings == ()
     (table,) = machine.volumetric[0].errors
     assert (table.arguments, table.interpolation) == ("XZ", Interpolation.GRID)
@@ -150,7 +157,8 @@ def test_blocks_with_the_same_arguments_make_one_table(read: Callable[..., Readi
 
 
 def test_of_two_records_the_later_one_counts(read: Callable[..., Reading]) -> None:
-    machine, findings = read(csv="X EXX\n0 0.1\n9 0.2\n0 0.3\n#\nX EXX\n9 0.4\n#\nC0Y\n1e-3\n2e-3\n")
+    reading = read(csv="X EXX\n0 0.1\n9 0.2\n0 0.3\n#\nX EXX\n9 0.4\n#\nC0Y\n1e-3\n2e-3\n")
+    machine, findings = reading.machine, reading.findings
     assert [finding.code for finding in findings] == ["AXC-TWICE"] * 3
     assert [finding.line for finding in findings] == [2, 6, 10]
     assert {table.name: table.values for table in machine.volumetric[0].errors} == {"C0Y": (2e-3,), "EXX": (0.3, 0.4)}
@@ -179,14 +187,16 @@ GRIDDED = "X Y EXX\n0 0 0.1\n9 0 0.2\n0 7 0.3\n9 7 0.4\n"
 def test_records_are_interpolated_as_the_list_says_if_they_can_be(
     read: Callable[..., Reading], mode: str, csv: str, interpolation: Interpolation | None, codes: list[str]
 ) -> None:
-    machine, findings = read(csv=csv, volumetric=[f"interpolation {mode}"])
+    reading = read(csv=csv, volumetric=[f"interpolation {mode}"])
+    machine, findings = reading.machine, reading.findings
     assert [finding.code for finding in findings] == codes
     assert [v.errors[0].interpolation for v in machine.volumetric] == ([interpolation] if interpolation else [])
 
 
 def test_a_path_keeps_the_order_of_its_corners(read: Callable[..., Reading]) -> None:
     csv = "Y X EXX\n5 9 0.1\n1 0 0.2\n1 0 0.25\n5 9 0.1\n"
-    machine, findings = read(csv=csv, volumetric=["interpolation PATH_XY"])
+    reading = read(csv=csv, volumetric=["interpolation PATH_XY"])
+    machine, findings = reading.machine, reading.findings
     assert [finding.code for finding in findings] == ["AXC-TWICE"]
     assert machine.volumetric[0].errors[0].nodes == ((9, 5), (0, 1), (9, 5))
     assert machine.volumetric[0].errors[0].values == (0.1, 0.25, 0.1)
@@ -284,12 +294,14 @@ def test_less_grave_findings_leave_the_compensation_in_place(
 
 def test_a_tool_orientation_is_scaled_and_one_of_length_zero_left_out(read: Callable[..., Reading]) -> None:
     for written, taken in (("0 3 -4", (0, 0.6, -0.8)), ("0 0 0", (0, 0, 0)), ("0 0.6 -0.8", (0, 0.6, -0.8))):
-        machine, _ = read(csv=f"N0X N0Y N0Z\n{written}\n")
+        reading = read(csv=f"N0X N0Y N0Z\n{written}\n")
+        machine = reading.machine
         assert machine.volumetric[0].tool_orientation == pytest.approx(taken, abs=1e-15)
 
 
 def test_a_missing_limit_is_an_error_when_the_compensation_is_switched_on(read: Callable[..., Reading]) -> None:
-    machine, findings = read(limited="XZ")
+    reading = read(limited="XZ")
+    machine, findings = reading.machine, reading.findings
     assert "s_limit" in findings[0].message
     runtime = Runtime(machine)
     runtime.cycle()
@@ -300,7 +312,8 @@ def test_records_are_counted_by_parameter_and_position_with_spliced_ones(read: C
     csv = "C EXC EYC\n0 0 0\n90 1e-3 0\n#\nX0Y PXC\n0.1 3\n"
     for bound, splicing, fits in ((6, 0, True), (5, 0, False), (8, 1, True), (7, 1, False)):
         start_up = [f"vol_comp[0].max_records {bound}"]
-        machine, findings = read(csv=csv, start_up=start_up, volumetric=[f"enable_splicing {splicing}"])
+        reading = read(csv=csv, start_up=start_up, volumetric=[f"enable_splicing {splicing}"])
+        machine, findings = reading.machine, reading.findings
         assert bool(machine.volumetric) == fits
         assert [finding.code for finding in findings] == ([] if fits else ["AXC-MAX-RECORDS"])
 
@@ -309,7 +322,8 @@ def test_without_axis_lists_a_volumetric_list_can_be_tried_on_its_own(tmp_path: 
     (tmp_path / "hochlauf.lis").write_text("vol_comp[0].file_name v.lis\nvol_comp[0].max_records 9\n")
     (tmp_path / "v.lis").write_text("x 1\ny 2\nz 3\nc 7\nchain CXYZ\nfile[0] e.csv\n")
     (tmp_path / "e.csv").write_text("X0X X0C\n0.01 0.02\n")
-    machine, findings = read_machine(tmp_path)
+    reading = read_machine(tmp_path)
+    machine, findings = reading.machine, reading.findings
     assert findings == ()
     assert [(axis.number, axis.type) for axis in machine.axes] == [
         *((number, AxisType.TRANSLATORY) for number in (1, 2, 3)),
@@ -326,7 +340,8 @@ def test_gantry_slaves_are_read(read: Callable[..., Reading]) -> None:
     text = machine_files()["achsmd2.lis"].replace("name Y", "name Y2").replace("achs_nr 2", "achs_nr 9")
     files = {"achsmd9.lis": text + "kenngr.gantry_ax_nr 2\n"}
     files["hochlauf.lis"] = machine_files()["hochlauf.lis"] + "\nzahl_mds 6\nachs_mds[5] achsmd9.lis\n"
-    machine, findings = read(files=files)
+    reading = read(files=files)
+    machine, findings = reading.machine, reading.findings
     assert [finding.code for finding in findings] == ["AXC-TWICE"]
     assert machine.axis("Y2").gantry_master == 2
     table = compile_tables(machine).volumetric[0]
@@ -465,7 +480,8 @@ def test_whatever_the_lists_say_the_machine_that_is_read_runs(lines: list[str], 
     with TemporaryDirectory() as folder:
         for name, text in machine_files(volumetric=lines, csv="\n#\n".join(blocks)).items():
             Path(folder, name).write_text(text, encoding="utf-8")
-        machine, findings = read_machine(folder)
+        reading = read_machine(folder)
+        machine, findings = reading.machine, reading.findings
     assert all(finding.message.endswith(".") for finding in findings)
     runtime = Runtime(machine)
     for position in (0.0, 1.0, -1e14, 359.9):

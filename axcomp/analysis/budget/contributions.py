@@ -21,14 +21,12 @@ from ...engine.trajectory import Columns, InputFile, completed
 from ...interface.variable import Variable, with_causality
 from ...kinds import KINDS
 from ...model.machine import Axis, Machine
+from ...model.quantity import shown
 from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from .model import CorrectionModel
 
 POINTS = 200
 """Places along the path at which volumetric errors are evaluated, if nothing else is asked for."""
-
-UNITS = {"mm": (1e3, "µm"), "deg": (1e3, "0.001°")}
-"""Factor and unit in which corrections are given, by the unit of their axis."""
 
 VOLUMETRIC = "volumetric"
 
@@ -50,7 +48,7 @@ class Contribution:
     cycles : array of int, shape (n,)
         Cycles of the path at which there is a value.
     values : array, shape (n,)
-        µm or 0.001°.
+        µm or ″.
     """
 
     axis: str
@@ -232,12 +230,12 @@ def budget_of(
         columns.pop("tool_length", None)
     columns = completed(columns, {v.name for v in with_causality(engine.variables, "input")}, cycle_time)
     result = engine.run(columns)
-    names: Names = {(v.axis, v.field): v for v in engine.variables}
+    names: Names = {(v.axis, v.quantity): v for v in engine.variables}
     at = np.unique(np.linspace(0, len(result) - 1, min(max(points, 2), len(result))).round().astype(np.int64))
     found: list[Contribution] = []
     totals, units, currents, setpoints = {}, {}, {}, {}
     for place, axis in enumerate(machine.axes):
-        factor, units[axis.name] = UNITS[axis.unit]
+        factor, units[axis.name] = shown(axis.unit)
         totals[axis.name] = factor * result[names[place, "correction"].name]
         setpoints[axis.name] = columns.get(names[place, "setpoint"].name, np.zeros(len(result)))
         found += _of_kinds(axis, place, names, result)
@@ -262,9 +260,9 @@ def budget_of(
 
 def _of_kinds(axis: Axis, place: int, names: Names, result: Result) -> Iterator[Contribution]:
     """Yield what the axis compensations of one axis contribute."""
-    factor, _ = UNITS[axis.unit]
+    factor, _ = shown(axis.unit)
     for kind in KINDS:
-        variable = names.get((place, f"{kind}_correction"))
+        variable = names.get((place, f"{kind}.correction"))
         if variable is not None and result[variable.name].any():
             yield Contribution(axis.name, kind, np.arange(len(result)), factor * result[variable.name])
 
@@ -308,7 +306,7 @@ def _of_errors(
     one: Places, at: Indices, joint: Mapping[str, Array], on: npt.NDArray[np.bool_]
 ) -> Iterator[Contribution]:
     """Yield what each error alone contributes where the compensation is on; add all together to ``joint``."""
-    factor, _ = UNITS["mm"]
+    factor, _ = shown("mm")
     signs = np.array([_sign(one.volumetric, letter) for letter in LINEAR]) * on[:, np.newaxis]
     together = factor * signs * one.model.corrections(one.places, one.tool_lengths, one.errors)
     if np.isnan(together).any():

@@ -17,7 +17,9 @@ from scipy.special import ndtri
 
 from ...engine.motion import Array
 from ...fit.hats import hats
-from ...model.machine import AxisType, Machine
+from ...kinds import tables_of
+from ...model.machine import AxisType
+from ...model.quantity import shown
 from ...model.volumetric import ERRORS, LETTERS, LINEAR
 from .contributions import Budget, Places
 from .uncertainty import Uncertainty
@@ -26,7 +28,7 @@ TRIALS = 500
 PLACES = 40
 """Places of the path to which uncertainties are carried: they change slowly."""
 COVERAGE = 0.95
-MICRO = 1e3
+MICRO = shown("mm").factor
 
 _STEP = 1e-4
 """mm or rad by which an error is changed to see what it does."""
@@ -209,10 +211,6 @@ def _weights_of_table(budget: Budget, uncertainty: Uncertainty, chosen: Any) -> 
     if not uncertainty.nodes:
         return np.ones((count, 1))
     name, _, kind = uncertainty.parameter.rpartition(".")
-    axis = budget.machine.axis(name)
-    machine: Machine = budget.machine
-    if kind == "leadscrew" and axis.leadscrew is not None:
-        return hats(np.array(axis.leadscrew.positions), budget.setpoints[name][budget.points[chosen]])
-    assert axis.cross is not None
-    master = machine.axes[machine.index_of(axis.cross.master)].name
-    return hats(np.array(axis.cross.positions), budget.setpoints[master][budget.points[chosen]])
+    [tables] = tables_of(budget.machine, name, kind)
+    curve = tables.curves[0]
+    return hats(np.array(curve.x), budget.setpoints[curve.over.axis][budget.points[chosen]])

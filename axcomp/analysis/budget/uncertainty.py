@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...kinds import KINDS
+from ...kinds import KINDS, tables_of
 from ...lists.grammar import decode
 from ...model.machine import AxisType, Machine
 from ...model.volumetric import ERRORS, Interpolation, is_angle
@@ -163,6 +163,6 @@ def _of_axis(name: str, value: float, nodes: bool, machine: Machine) -> Uncertai
     if axis.type is not AxisType.TRANSLATORY:
         letter = name[0] if name[0] in "ABC" else "C"
         raise ValueError(f"{axis_name} turns: give its uncertainty as E{letter}{letter} of a volumetric compensation.")
-    if nodes and kind not in {"leadscrew", "cross"}:
+    if nodes and not any(tables.curves for tables in tables_of(machine, axis_name, kind)):
         raise ValueError(f"{name} has no interpolation points along a single axis; expected correlation {COMMON}.")
     return Uncertainty(name, value, nodes)

@@ -5,19 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from os import PathLike
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
-from ...kinds.parameter import ListKind
 from ...lists import Finding, Reading
 from ...lists.catalogue_volumetric import ETALON_EXCHANGE
 from ...lists.etalon import read_etalon
 from ...lists.files import Files
 from ...lists.findings import Findings
 from ...lists.isg_csv import read_isg_csv
-from ...lists.start_up import find_lists
-from ...lists.values import ListValues, read_values
+from ...lists.values import ListValues
 from ...lists.volumetric_blocks import ParameterBlock
 from ...lists.volumetric_parameters import Parameters, assemble
 from ...model.volumetric import AXIS_NUMBERS, COMPENSATIONS_MAX, DESCRIPTION, ERRORS, FILES_MAX, LETTERS, Interpolation
@@ -134,35 +131,29 @@ class Diagnosis:
     findings: tuple[Finding, ...]
 
 
-def volumetric_lists(path: str | PathLike[str]) -> tuple[list[VolumetricList], list[str]]:
-    """Return the volumetric lists of a machine, and a sentence for each that cannot be read. No record is read yet.
-
-    ``path`` is that of ``read_machine``; OSError or ValueError if it cannot be used.
-    """
-    findings = Findings()
-    files = Files(findings)
-    lists = find_lists(Path(path), files, findings)
+def volumetric_lists(reading: Reading) -> tuple[list[VolumetricList], list[str]]:
+    """Return the volumetric lists of a machine, and a sentence for each that could not be read."""
     found: list[VolumetricList] = []
     faults: list[str] = []
-    start_up = lists.start_up
-    if start_up is None:
+    if reading.start_up is None:
         return found, faults
+    start_up, folder = reading.start_up.values, reading.start_up.path.parent
+    files = Files(Findings(), reading.documents.values())
     for index in range(COMPENSATIONS_MAX):
         name = start_up.text(FILE_NAME, index)
-        list_path = files.named(lists.folder, name, ("", 0, "")) if name else None
-        text = None if list_path is None else files.text(list_path)
-        if list_path is not None and text is not None:
-            values = read_values(text, str(list_path), ListKind.VOLUMETRIC, findings)
-            found.append(VolumetricList(index, start_up, values, list_path, lists.folder))
+        path = files.named(folder, name, ("", 0, "")) if name else None
+        document = None if path is None else files.document(path)
+        if document is not None:
+            found.append(VolumetricList(index, start_up, document.values, document.path, folder))
         elif name:
             faults.append(f"the volumetric list {name!r}, which {Path(start_up.file).name} names, cannot be read.")
     return found, faults
 
 
 def diagnose(source: VolumetricList, reading: Reading) -> Diagnosis:
-    """Read the parameter files of a list; ``reading``: of its machine."""
+    """Return all records of the parameter files of a list; ``reading``: of its machine."""
     values = source.values
-    read = list(_parameter_files(source))
+    read = list(_parameter_files(source, reading))
     blocks = [block for _, _, held in read for block in held or ()]
     mode = values.text("interpolation")
     parameters = assemble(blocks, mode, enable_splicing=False, findings=Findings())
@@ -184,20 +175,22 @@ def diagnose(source: VolumetricList, reading: Reading) -> Diagnosis:
     )
 
 
-def _parameter_files(source: VolumetricList) -> Iterator[tuple[int, Path, list[ParameterBlock] | None]]:
+def _parameter_files(
+    source: VolumetricList, reading: Reading
+) -> Iterator[tuple[int, Path, list[ParameterBlock] | None]]:
     """Yield index, path and blocks (None: unreadable) of each file the list names; its faults are known already."""
     findings = Findings()
-    files = Files(findings)
+    files = Files(findings, reading.documents.values())
     for j in range(FILES_MAX):
         name = source.values.text("file[j]", j)
         if not name:
             continue
         path = files.named(source.folder, name, ("", 0, ""))
-        text = None if path is None else files.text(path)
+        document = None if path is None else files.document(path)
         path = path or Path(PureWindowsPath(name).name)
         etalon = source.values.text("file_format[j]", j) == ETALON_EXCHANGE
         reader = read_etalon if etalon else read_isg_csv
-        yield j, path, None if text is None else reader(text, str(path), findings)
+        yield j, path, None if document is None else reader(document.text, str(path), findings)
 
 
 def _axes(values: ListValues, parameters: Parameters) -> Iterator[tuple[str, tuple[float, str]]]:

@@ -12,12 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from ...kinds.crosstalk import Crosstalk, CrosstalkCurve
+from ...engine.motion import Array
+from ...kinds import tables_of
+from ...kinds.shown import ACCELERATION, POSITION
+from ...lists import Position
 from ...lists.findings import Findings
 from ...model.machine import Axis, AxisType, Machine
+from ...model.quantity import symbol
 from ...model.volumetric import ErrorTable, Volumetric
-from .curves import PLANE_ENTRY, Array, curves_of, grids_of, unit_of
-from .places import ListPlaces, Place
+from .positions import Positions
 from .trajectory import column_of, setpoints
 
 TOLERANCE = 1e-6
@@ -40,7 +43,7 @@ class Coverage:
         Least and largest value in the file.
     outside : float
         Share of the file's rows outside the range, 0 … 1.
-    place : Place
+    position : Position
         Of the table in its list.
     """
 
@@ -50,7 +53,7 @@ class Coverage:
     held: tuple[float, float]
     used: tuple[float, float]
     outside: float
-    place: Place
+    position: Position
 
     @property
     def message(self) -> str:
@@ -75,7 +78,7 @@ class Coverage:
         return {name: getattr(self, name) for name in names}
 
 
-def coverage_of(machine: Machine, trajectory: Mapping[str, Array], places: ListPlaces) -> Iterator[Coverage]:
+def coverage_of(machine: Machine, trajectory: Mapping[str, Array], positions: Positions) -> Iterator[Coverage]:
     """Yield what a file uses of every table whose quantities it moves.
 
     Parameters
@@ -84,7 +87,7 @@ def coverage_of(machine: Machine, trajectory: Mapping[str, Array], places: ListP
         Whose tables.
     trajectory : mapping of str to array, shape (rows,)
         As ``sweep.trajectory.read_input(path).columns``: ``X.setpoint`` and the like in mm, °, mm/s² …
-    places : ListPlaces
+    positions : Positions
         Of its lists.
 
     Raises
@@ -94,29 +97,20 @@ def coverage_of(machine: Machine, trajectory: Mapping[str, Array], places: ListP
     """
     moved = setpoints(trajectory, machine)
     names = {axis.number: axis for axis in machine.axes}
-    seen = set()
-    for curve in curves_of(machine):
-        key = (curve.axis.number, curve.kind)
-        if key in seen or curve.over.number not in moved or curve.table.period is not None:
-            continue
-        seen.add(key)
-        place = places.of_table(curve.axis.number, curve.entry, 0)
-        name = curve.name.partition(",")[0]
-        yield _positions(name, curve.over, moved[curve.over.number], curve.table.positions, place)
-    for grid in grids_of(machine):
-        place = places.of_table(grid.axis.number, PLANE_ENTRY, 0, 0)
-        for over, points in ((grid.first, grid.across), (grid.second, grid.up)):
-            if over.number in moved:
-                yield _positions(grid.name, over, moved[over.number], points.tolist(), place)
-    for axis in machine.axes:
-        if axis.crosstalk is not None:
-            yield from _of_crosstalk(axis, axis.crosstalk, names, trajectory, moved, places)
+    for tables in tables_of(machine):
+        for over, low, high, entry in tables.ranges():
+            position = positions.of_table(tables.axis.number, entry, *([0] * entry.count("[")))
+            axis = machine.axis(over.axis)
+            used = column_of(trajectory, axis, ACCELERATION) if over.name == ACCELERATION else moved.get(axis.number)
+            quantity = {POSITION: axis.name, ACCELERATION: f"the acceleration of {axis.name}"}.get(over.name)
+            if used is not None and quantity is not None:
+                yield _coverage(tables.name, quantity, over.unit, (low, high), used, position)
     for volumetric in machine.volumetric:
-        yield from _of_volumetric(volumetric, names, moved, places)
+        yield from _of_volumetric(volumetric, names, moved, positions)
 
 
 def judge_coverage(
-    machine: Machine, trajectory: Mapping[str, Array], places: ListPlaces, findings: Findings
+    machine: Machine, trajectory: Mapping[str, Array], positions: Positions, findings: Findings
 ) -> list[Coverage]:
     """Note where a file leaves the tables, and return what it uses of each.
 
@@ -125,55 +119,25 @@ def judge_coverage(
     ValueError
         As ``coverage_of`` does.
     """
-    results = list(coverage_of(machine, trajectory, places))
+    results = list(coverage_of(machine, trajectory, positions))
     for result in results:
         if result.outside > 0.0:
-            findings.add("AXC-COVERAGE", *result.place, f"{result.message[0].upper()}{result.message[1:]}")
+            findings.add("AXC-COVERAGE", *result.position, f"{result.message[0].upper()}{result.message[1:]}")
     return results
 
 
-def _positions(table: str, over: Axis, used: Array, points: tuple[float, ...] | list[float], place: Place) -> Coverage:
-    return _coverage(table, over.name, unit_of(over), (points[0], points[-1]), used, place)
-
-
-def _coverage(table: str, quantity: str, unit: str, held: tuple[float, float], used: Array, place: Place) -> Coverage:
+def _coverage(
+    table: str, quantity: str, unit: str, held: tuple[float, float], used: Array, position: Position
+) -> Coverage:
     outside = float(np.mean((used < held[0] - TOLERANCE) | (used > held[1] + TOLERANCE)))
-    return Coverage(table, quantity, unit, held, (float(used.min()), float(used.max())), outside, place)
-
-
-def _of_crosstalk(
-    axis: Axis,
-    crosstalk: Crosstalk | CrosstalkCurve,
-    names: dict[int, Axis],
-    trajectory: Mapping[str, Array],
-    moved: dict[int, Array],
-    places: ListPlaces,
-) -> Iterator[Coverage]:
-    name = f"the crosstalk table of {axis.name}"
-    master = names[crosstalk.master]
-    accelerations = column_of(trajectory, master, "acceleration")
-    if isinstance(crosstalk, CrosstalkCurve):
-        held = (crosstalk.accelerations[0], crosstalk.accelerations[-1])
-        place = places.of_table(axis.number, "kw.crosstalk.table[i].correction", 0)
-    else:
-        held = (crosstalk.deceleration, crosstalk.acceleration)
-        place = places.of_table(axis.number, "kw.crosstalk.acceleration")
-    if accelerations is not None:
-        yield _coverage(name, f"the acceleration of {master.name}", "mm/s²", held, accelerations, place)
-    if isinstance(crosstalk, CrosstalkCurve):
-        return
-    adaptations = ((crosstalk.adaptation1, "position1"), (crosstalk.adaptation2, "position2"))
-    for number, field in adaptations[: crosstalk.mode - 1]:
-        if number is not None and number in moved:
-            points = sorted(getattr(test, field) for test in crosstalk.tests)
-            yield _positions(name, names[number], moved[number], points, place)
+    return Coverage(table, quantity, unit, held, (float(used.min()), float(used.max())), outside, position)
 
 
 def _of_volumetric(
-    volumetric: Volumetric, names: dict[int, Axis], moved: dict[int, Array], places: ListPlaces
+    volumetric: Volumetric, names: dict[int, Axis], moved: dict[int, Array], positions: Positions
 ) -> Iterator[Coverage]:
     """Yield the coverage of each axis by the narrowest of its error tables."""
-    place = places.of_volumetric(volumetric.index)
+    position = positions.of_volumetric(volumetric.index)
     for letter, number in volumetric.axes:
         tables = [table for table in volumetric.errors if letter in table.arguments]
         axis = names[number]
@@ -184,7 +148,7 @@ def _of_volumetric(
         offset = volumetric.offsets["XYZABC".index(letter)] * (1.0 if letter in "XYZ" else 180.0 / np.pi)
         errors = " ".join(chain((table.name for table in tables[:3]), ["…"] if len(tables) > 3 else []))
         name = f"volumetric compensation {volumetric.index} ({errors})"
-        yield _positions(name, axis, moved[number] + offset, held, place)
+        yield _coverage(name, axis.name, symbol(axis.unit), held, moved[number] + offset, position)
 
 
 def _range(table: ErrorTable, letter: str) -> tuple[float, float]:

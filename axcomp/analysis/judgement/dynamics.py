@@ -16,10 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...engine.motion import Array
+from ...kinds import tables_of
 from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
-from .curves import PER_MILLE, PLANE_ENTRY, Array, curves_of, grids_of, rate, thousandth_of, unit_of
-from .places import ListPlaces
+from ...model.quantity import shown, symbol
+from .positions import Positions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -169,6 +171,11 @@ class DynamicsResult:
         return plot_dynamics(self, ax)
 
 
+def rate(value: float) -> str:
+    """Return a velocity or an acceleration in words: four digits, never with an exponent where it is large."""
+    return f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.4g}"
+
+
 def ramp_rates(cycles: int) -> tuple[float, float]:
     """Return the largest change of the weight sin²(π/2 · k/n) in a cycle, and the largest change of that change."""
     n = max(cycles, 1)
@@ -178,45 +185,42 @@ def ramp_rates(cycles: int) -> tuple[float, float]:
 
 
 def dynamics_of(machine: Machine, demand: Demand) -> Iterator[DynamicsResult]:
-    """Yield what each leadscrew, cross and plane table asks for, a plane's for either master."""
-    cycle_time = demand.cycle_time
-    seen: set[tuple[int, str]] = set()
-    for curve in curves_of(machine):
-        if (curve.axis.number, curve.kind) in seen:
-            continue
-        seen.add((curve.axis.number, curve.kind))
-        sides = [c for c in curves_of(machine) if c.axis == curve.axis and c.kind == curve.kind]
-        rows = np.stack([side.values for side in sides])
-        cross = curve.axis.cross
-        yield DynamicsResult(
-            curve.name.partition(",")[0],
-            curve.axis,
-            curve.over,
-            curve.entry,
-            demand.of(demand.feed, curve.over.name, 0.0),
-            *_shape(curve.positions, rows, curve.table.period is not None),
-            jump=float(np.abs(rows).max()),
-            jump_cycles=cross.n_cycles if curve.kind == "cross" and cross is not None else 0,
-            reversal=float(np.abs(rows[0] - rows[-1]).max()),
-            reversal_cycles=curve.axis.backlash_cycles,
-            cycle_time=cycle_time,
-        )
-    for grid in grids_of(machine):
-        assert grid.axis.plane is not None
-        for over, positions, rows in ((grid.first, grid.across, grid.values), (grid.second, grid.up, grid.values.T)):
+    """Yield what each table over positions asks for, a plane's for either master."""
+    for tables in tables_of(machine):
+        axis, cycles = tables.axis, getattr(tables.compensation, "n_cycles", 0)
+        if tables.curves:
+            sides = [curve.added().closed() for curve in tables.curves]
+            rows = np.array([side.y for side in sides])
+            over = sides[0].over.axis
             yield DynamicsResult(
-                f"the plane table of {grid.axis.name} along {over.name}",
-                grid.axis,
-                over,
-                PLANE_ENTRY,
-                demand.of(demand.feed, over.name, 0.0),
-                *_shape(positions, rows, False),
-                jump=float(np.abs(rows).max()) if rows is grid.values else 0.0,
-                jump_cycles=grid.axis.plane.n_cycles,
-                reversal=0.0,
-                reversal_cycles=0,
-                cycle_time=cycle_time,
+                tables.name,
+                axis,
+                machine.axis(over),
+                sides[0].entry,
+                demand.of(demand.feed, over, 0.0),
+                *_shape(np.array(sides[0].x), rows, sides[0].period is not None),
+                jump=float(np.abs(rows).max()),
+                jump_cycles=cycles,
+                reversal=float(np.abs(rows[0] - rows[-1]).max()),
+                reversal_cycles=axis.backlash_cycles,
+                cycle_time=demand.cycle_time,
             )
+        for grid in tables.grids:
+            values = np.array(grid.values)
+            for place, (along, x) in enumerate(zip(grid.over, (grid.x, grid.y), strict=True)):
+                yield DynamicsResult(
+                    f"the {tables.kind} table of {axis.name} along {along.axis}",
+                    axis,
+                    machine.axis(along.axis),
+                    grid.entry,
+                    demand.of(demand.feed, along.axis, 0.0),
+                    *_shape(np.array(x), values.T if place else values, False),
+                    jump=0.0 if place else float(np.abs(values).max()),
+                    jump_cycles=cycles,
+                    reversal=0.0,
+                    reversal_cycles=0,
+                    cycle_time=demand.cycle_time,
+                )
 
 
 def _shape(x: Array, rows: Array, repeats: bool) -> tuple[Array, Array, Array, Array, Array]:
@@ -252,30 +256,30 @@ def _shape(x: Array, rows: Array, repeats: bool) -> tuple[Array, Array, Array, A
     return np.column_stack([x[:-1], x[1:]]), largest, kink, places, kink / distances
 
 
-def judge_dynamics(machine: Machine, demand: Demand, places: ListPlaces, findings: Findings) -> list[DynamicsResult]:
+def judge_dynamics(machine: Machine, demand: Demand, positions: Positions, findings: Findings) -> list[DynamicsResult]:
     """Note and return what tables ask for: the figures at a feed, and whatever is beyond the limits."""
     results = list(dynamics_of(machine, demand))
     for result in results:
-        unit, name, size = unit_of(result.axis), result.axis.name, f"{result.name[0].upper()}{result.name[1:]}"
-        place = places.of_table(result.axis.number, result.entry, *([0] * result.entry.count("[")))
+        unit, name, size = symbol(result.axis.unit), result.axis.name, f"{result.name[0].upper()}{result.name[1:]}"
+        position = positions.of_table(result.axis.number, result.entry, *([0] * result.entry.count("[")))
         velocity_limit = demand.of(demand.velocity, name, math.inf)
         acceleration_limit = demand.of(demand.acceleration, name, math.inf)
         if result.feed and len(result.slopes):
-            findings.add("AXC-DYNAMICS", *place, f"{size} {_asks(result)}.")
+            findings.add("AXC-DYNAMICS", *position, f"{size} {_asks(result)}.")
             own = demand.of(demand.feed, name, 0.0)
             if own + result.added_velocity > velocity_limit:
                 message = (
                     f"{size} adds {rate(result.added_velocity)} {unit}/s to the {own:g} {unit}/s of {name}: that is "
                     f"above its {velocity_limit:g} {unit}/s."
                 )
-                findings.add("AXC-DYNAMICS-VELOCITY", *place, message)
+                findings.add("AXC-DYNAMICS-VELOCITY", *position, message)
             if result.added_acceleration > acceleration_limit:
-                at = f"{result.kinks_at[result.sharpest]:g} {unit_of(result.over)}"
+                at = f"{result.kinks_at[result.sharpest]:g} {symbol(result.over.unit)}"
                 message = (
                     f"The kink at {at} of {result.name} asks {name} for {rate(result.added_acceleration)} {unit}/s² "
                     f"within a cycle, above its {acceleration_limit:g} {unit}/s²."
                 )
-                findings.add("AXC-DYNAMICS-KINK", *place, message)
+                findings.add("AXC-DYNAMICS-KINK", *position, message)
         for what, jump, cycles, velocity, acceleration in (
             ("Switching", result.jump, result.jump_cycles, result.jump_velocity, result.jump_acceleration),
             (
@@ -296,21 +300,22 @@ def judge_dynamics(machine: Machine, demand: Demand, places: ListPlaces, finding
             ]
             if above:
                 over = f"over {cycles} cycles" if cycles > 1 else "at once"
-                moved = f"{PER_MILLE * jump:.1f} {thousandth_of(result.axis)}"
+                factor, small = shown(result.axis.unit)
+                moved = f"{factor * jump:.1f} {small}"
                 message = f"{what} {result.name} moves {name} by up to {moved} {over}: {', and '.join(above)}."
-                findings.add("AXC-DYNAMICS-JUMP", *place, message)
+                findings.add("AXC-DYNAMICS-JUMP", *position, message)
     return results
 
 
 def _asks(result: DynamicsResult) -> str:
-    unit, over = unit_of(result.axis), unit_of(result.over)
+    unit, over = symbol(result.axis.unit), symbol(result.over.unit)
     low, high = result.intervals[result.steepest]
-    slope = PER_MILLE * abs(result.slopes[result.steepest])
+    factor, small = shown(result.axis.unit)
+    slope = factor * abs(result.slopes[result.steepest])
     at = f"{result.kinks_at[result.sharpest]:g} {over}"
-    thousandth = thousandth_of(result.axis)
     return (
         f"adds up to {rate(result.added_velocity)} {unit}/s at {result.feed:g} {over}/s ({slope:.3g} "
-        f"{thousandth}/{over} at {low:g} … {high:g} {over}) and, at the kink at {at}, "
+        f"{small}/{over} at {low:g} … {high:g} {over}) and, at the kink at {at}, "
         f"{rate(result.added_acceleration)} {unit}/s² within a cycle; its curvature without kinks would add "
         f"{rate(result.smooth_acceleration)} {unit}/s²"
     )

@@ -18,7 +18,7 @@ from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
 from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from ...runtime.compile import compile_tables
-from .places import ListPlaces
+from .positions import Positions
 
 POSITIONS_MAX = 1000
 """At which the corrections are computed; where records are at more positions, evenly chosen ones count."""
@@ -135,7 +135,7 @@ def _count(sides: list[list[float]]) -> int:
 
 
 def judge_limits(
-    machine: Machine, places: ListPlaces, findings: Findings, tool_length: float = 0.0
+    machine: Machine, positions: Positions, findings: Findings, tool_length: float = 0.0
 ) -> list[LargestCorrection]:
     """Note axes whose limit is exceeded or all but reached, and return the largest correction of each."""
     results = list(largest_corrections(machine, tool_length))
@@ -150,10 +150,10 @@ def judge_limits(
             f"Volumetric compensation {result.index} moves {result.axis.name} by {result.correction:.4f} mm at {at}, "
             f"{100.0 * share:.0f} % of its s_limit of {result.axis.volumetric_limit:g} mm"
         )
-        place = places.of_axis(result.axis.number, "lr_param.vol_comp.s_limit")
+        position = positions.of_axis(result.axis.number, "lr_param.vol_comp.s_limit")
         if share > 1.0:
             message = f"{begin}: there the axis stops and the compensation switches off."
-            findings.add("AXC-LIMIT-EXCEEDED", *place, message)
+            findings.add("AXC-LIMIT-EXCEEDED", *position, message)
         else:
-            findings.add("AXC-LIMIT-NEAR", *place, f"{begin}.")
+            findings.add("AXC-LIMIT-NEAR", *position, f"{begin}.")
     return results

@@ -14,15 +14,18 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ...engine.motion import Array
+from ...kinds import Tables, tables_of
 from ...lists.findings import Findings
+from ...model.curve import Curve
+from ...model.grid import Grid
 from ...model.machine import Machine
-from .curves import PER_MILLE, PLANE_ENTRY, Array, Curve, Grid, curves_of, grids_of, thousandth_of, unit_of
-from .places import ListPlaces
+from ...model.quantity import Quantity
+from .judging import JUDGED_LEAST
+from .positions import Positions
 
 Indices = npt.NDArray[np.intp]
 
-JUDGED_LEAST = 7
-"""Points with neighbours on both sides that are needed: an outlier is in three distances of the median."""
 SIGMAS = 6.0
 """Distance from the neighbours that makes an outlier, in standard deviations by the median."""
 SIGMA_OF_MEDIAN = 1.4826
@@ -74,7 +77,7 @@ def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
     n = len(x)
     distance, score = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
     at = np.arange(2, n - 2)
-    if len(at) >= JUDGED_LEAST:
+    if n >= JUDGED_LEAST:
         lines = np.stack(
             [y[at] - _line(x, y, a, b, at) for a, b in ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))]
         )
@@ -95,54 +98,51 @@ def _line(x: Array, y: Array, a: Indices, b: Indices, at: Indices) -> Array:
     return value
 
 
-def judge_outliers(machine: Machine, places: ListPlaces, findings: Findings) -> None:
-    """Note the outliers of all leadscrew, cross and plane tables."""
-    for curve in curves_of(machine):
-        for index, distance, ordinary in _of_curve(curve):
-            unit = thousandth_of(curve.axis)
-            # As it stands in the list: leadscrew values are subtracted.
-            sign = -1.0 if curve.kind == "leadscrew" else 1.0
-            value = sign * PER_MILLE * curve.values[index]
-            at = f"{curve.positions[index]:g} {unit_of(curve.over)}"
-            message = (
-                f"The value {value:.1f} {unit} at {at} is {_off(sign * distance, ordinary, unit)} in {curve.name}."
-            )
-            place = places.of_table(curve.axis.number, curve.entry, index)
-            findings.add("AXC-OUTLIER", *place, message)
-    for grid in grids_of(machine):
-        for row, column, distance, ordinary in _of_grid(grid):
-            unit = thousandth_of(grid.axis)
-            at = (
-                f"{grid.first.name} = {grid.across[column]:g} {unit_of(grid.first)}, "
-                f"{grid.second.name} = {grid.up[row]:g} {unit_of(grid.second)}"
-            )
-            value = PER_MILLE * grid.values[row, column]
-            message = f"The value {value:.1f} {unit} at {at} is {_off(distance, ordinary, unit)} in {grid.name}."
-            place = places.of_table(grid.axis.number, PLANE_ENTRY, row, column)
-            findings.add("AXC-OUTLIER", *place, message)
+def judge_outliers(machine: Machine, positions: Positions, findings: Findings) -> None:
+    """Note the outliers of all tables over positions; values are said as they stand in the list."""
+    for tables in tables_of(machine):
+        for curve in tables.curves:
+            for index, distance, ordinary in _of_curve(curve):
+                at = f"{curve.x[index]:g} {curve.over.unit}"
+                message = _message(curve.y[index], at, distance, ordinary, curve.of, tables.named(curve))
+                findings.add("AXC-OUTLIER", *positions.of_table(tables.axis.number, curve.entry, index), message)
+        for grid in tables.grids:
+            _judge_grid(tables, grid, positions, findings)
 
 
-def _off(distance: float, ordinary: float, unit: str) -> str:
-    usual = PER_MILLE * ordinary
-    return f"{PER_MILLE * distance:+.1f} {unit} off its neighbours, where ±{usual:.1f} {unit} is ordinary"
+def _judge_grid(tables: Tables, grid: Grid, positions: Positions, findings: Findings) -> None:
+    for row, column, distance, ordinary in _of_grid(grid):
+        at = ", ".join(
+            f"{over.axis} = {position:g} {over.unit}"
+            for over, position in zip(grid.over, (grid.x[column], grid.y[row]), strict=True)
+        )
+        message = _message(grid.values[row][column], at, distance, ordinary, grid.of, tables.name)
+        findings.add("AXC-OUTLIER", *positions.of_table(tables.axis.number, grid.entry, row, column), message)
+
+
+def _message(value: float, at: str, distance: float, ordinary: float, of: Quantity, name: str) -> str:
+    factor, unit = of.factor, of.scaled().unit
+    return (
+        f"The value {factor * value:.1f} {unit} at {at} is {factor * distance:+.1f} {unit} off its neighbours, "
+        f"where ±{factor * ordinary:.1f} {unit} is ordinary in {name}."
+    )
 
 
 def _of_curve(curve: Curve) -> Iterator[tuple[int, float, float]]:
-    x, y, period = curve.positions, curve.values, curve.table.period
-    if period is not None:
+    x, y = np.array(curve.x), np.array(curve.y)
+    if curve.period is not None and curve.closed() is curve:
         # The last one repeats the first one.
         x, y = x[:-1], y[:-1]
-    found = spikes(x, y, period)
+    found = spikes(x, y, curve.period)
     for index in np.flatnonzero(found.found).tolist():
         yield index, float(found.distance[index]), found.ordinary
 
 
 def _of_grid(grid: Grid) -> Iterator[tuple[int, int, float, float]]:
     """Yield row and column of points that are off along both sides; near an edge only one side can tell."""
-    along = spikes(grid.up, grid.values)
-    across = spikes(grid.across, grid.values.T)
-    found = np.ones(grid.values.shape, dtype=bool)
-    known = np.zeros(grid.values.shape, dtype=bool)
+    values = np.array(grid.values)
+    along, across = spikes(np.array(grid.y), values), spikes(np.array(grid.x), values.T)
+    found, known = np.ones(values.shape, dtype=bool), np.zeros(values.shape, dtype=bool)
     for one, turned in ((along, False), (across, True)):
         score, is_spike = (one.score.T, one.found.T) if turned else (one.score, one.found)
         found &= is_spike | np.isnan(score)

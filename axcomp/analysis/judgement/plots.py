@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from ...plot.iso230 import DOWN, UP
-from ...plot.style import labelled, new_figure
-from .curves import PER_MILLE, Array, thousandth_of, unit_of
+from ...engine.motion import Array
+from ...model.quantity import shown, symbol
+from ...plot.style import DOWN, UP, labelled, new_figure
 from .dynamics import DynamicsResult
 from .sign import WITHOUT, WRITTEN, SignResult
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def plot_sign(result: SignResult, ax: Axes | None = None) -> Axes:
     """Draw the mean deviations without the compensation and with the table as it is written."""
     ax = new_figure().add_subplot() if ax is None else ax
-    unit = result.evaluations[WITHOUT].unit.replace("0.001°", "m°")
+    unit = result.evaluations[WITHOUT].unit
     for name, style in ((WITHOUT, "--"), (WRITTEN, "-")):
         evaluation = result.evaluations[name]
         for arrow, mean, colour in (("↑", evaluation.mean_up, UP), ("↓", evaluation.mean_down, DOWN)):
@@ -30,7 +30,7 @@ def plot_sign(result: SignResult, ax: Axes | None = None) -> Axes:
                 ax.plot(evaluation.positions[known], mean[known], style, marker="o", ms=3.5, color=colour, label=label)
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
     ax.legend(ncols=2, fontsize=10)
-    position = "mm" if result.evaluations[WITHOUT].position_unit == "mm" else "°"
+    position = symbol(result.evaluations[WITHOUT].position_unit)
     figures = f"{result.symbol} {result.error(WITHOUT):.1f} → {result.error(WRITTEN):.1f} {unit}"
     title = f"{result.name[0].upper()}{result.name[1:]}: {figures}"
     return labelled(ax, title, f"target position [{position}]", f"deviation, actual − target [{unit}]")
@@ -39,13 +39,14 @@ def plot_sign(result: SignResult, ax: Axes | None = None) -> Axes:
 def plot_dynamics(result: DynamicsResult, ax: Axes | None = None) -> Axes:
     """Draw the slope over the position; a second scale is the velocity it adds at the feed."""
     ax = new_figure().add_subplot() if ax is None else ax
-    unit, over = unit_of(result.axis), unit_of(result.over)
+    unit, over = symbol(result.axis.unit), symbol(result.over.unit)
+    small = shown(result.axis.unit)
     if len(result.slopes):
         edges = [*result.intervals[:, 0], result.intervals[-1, 1]]
-        ax.stairs(PER_MILLE * result.slopes, edges, color=UP, lw=1.5, baseline=None)
+        ax.stairs(small.factor * result.slopes, edges, color=UP, lw=1.5, baseline=None)
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
     if result.feed:
-        factor = result.feed / PER_MILLE
+        factor = result.feed / small.factor
 
         def to_velocity(slope: npt.ArrayLike) -> Array:
             return np.asarray(slope, dtype=float) * factor
@@ -56,6 +57,6 @@ def plot_dynamics(result: DynamicsResult, ax: Axes | None = None) -> Axes:
         second = ax.secondary_yaxis("right", functions=(to_velocity, to_slope))
         second.set_ylabel(f"added velocity at {result.feed:g} {over}/s [{unit}/s]", fontsize=11)
     ax.set_axisbelow(True)
-    label = f"slope [{thousandth_of(result.axis)}/{over}]"
+    label = f"slope [{small.unit}/{over}]"
     title = f"{result.name[0].upper()}{result.name[1:]}: slope"
     return labelled(ax, title, f"position of {result.over.name} [{over}]", label)

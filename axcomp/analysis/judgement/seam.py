@@ -7,14 +7,14 @@ differ, and so does any other table over a round axis, for its ends are held.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
-import numpy as np
-
+from ...kinds import tables_of
 from ...lists.findings import Findings
-from ...model.machine import Machine
-from .curves import PER_MILLE, Curve, curves_of, thousandth_of, unit_of
-from .places import ListPlaces
+from ...model.curve import Curve
+from ...model.machine import Machine, ModuloRange
+from .positions import Positions
 
 STEEPER = 3.0
 """From this ratio on of the slope over the gap to the steepest one of the table, the gap is doubtful."""
@@ -48,40 +48,45 @@ class Seam(NamedTuple):
         return abs(self.change) >= STEP_LEAST and self.ratio > STEEPER
 
 
-def seam_of(curve: Curve) -> Seam | None:
-    """Return the seam of a table, None if the position it is looked up at does not begin again."""
-    x, y = np.array(curve.table.positions), np.array(curve.table.curve(curve.direction or 1))
-    if curve.table.period is not None:
-        gap = curve.table.period - float(x[-1] - x[0])
-        change = float(y[0] - y[-1])
+def seam_of(curve: Curve, modulo: ModuloRange | None) -> Seam | None:
+    """Return the seam of what a table adds, None if the position it is looked up at does not begin again.
+
+    Parameters
+    ----------
+    curve : Curve
+        The table.
+    modulo : ModuloRange or None
+        Of the axis whose position it is looked up at.
+    """
+    added = curve.added()
+    if curve.period is not None:
+        gap = curve.period - curve.span
+        change = added.y[0] - added.y[-1]
         if gap <= 1e-9:
-            return Seam(float(x[-1]), 0.0, change, np.inf)
-        slopes = np.abs(np.diff(y) / np.diff(x))
-        steepest = float(slopes.max()) if slopes.size else 0.0
-        return Seam(float(x[-1]), gap, change, abs(change) / gap / steepest if steepest else np.inf)
-    modulo = curve.over.modulo
+            return Seam(curve.x[-1], 0.0, change, math.inf)
+        steepest = max(map(abs, added.slopes()), default=0.0)
+        return Seam(curve.x[-1], gap, change, abs(change) / gap / steepest if steepest else math.inf)
     if modulo is None:
         return None
-    before, behind = np.interp([modulo.end, modulo.start], x, y)
-    return Seam(modulo.end, 0.0, float(behind - before), np.inf)
+    return Seam(modulo.end, 0.0, added.at(modulo.start) - added.at(modulo.end), math.inf)
 
 
-def judge_seams(machine: Machine, places: ListPlaces, findings: Findings) -> None:
-    """Note doubtful seams of all leadscrew and cross tables."""
-    for curve in curves_of(machine):
-        seam = seam_of(curve)
-        if seam is None or not seam.doubtful:
-            continue
-        position, unit = unit_of(curve.over), thousandth_of(curve.axis)
-        change = f"{PER_MILLE * seam.change:+.1f} {unit}"
-        if seam.gap:
-            table = f"{seam.ratio:.1f} times as steep as any part of" if np.isfinite(seam.ratio) else "unlike"
-            message = (
-                f"From the last point at {seam.at:g} {position} the correction changes by {change} over "
-                f"{seam.gap:g} {position} to the first one, {table} {curve.name}."
-            )
-        else:
-            where = f"where {curve.over.name} begins again at {seam.at:g} {position}"
-            message = f"The correction steps by {change} {where}, by {curve.name}."
-        place = places.of_table(curve.axis.number, curve.entry, len(curve.table.positions) - 1)
-        findings.add("AXC-SEAM", *place, message)
+def judge_seams(machine: Machine, positions: Positions, findings: Findings) -> None:
+    """Note doubtful seams of all tables over one position."""
+    for tables in tables_of(machine):
+        for curve in tables.curves:
+            seam = seam_of(curve, machine.axis(curve.over.axis).modulo)
+            if seam is None or not seam.doubtful:
+                continue
+            position, name = curve.over.unit, tables.named(curve)
+            change = f"{curve.of.factor * seam.change:+.1f} {curve.of.scaled().unit}"
+            if seam.gap:
+                table = f"{seam.ratio:.1f} times as steep as any part of" if math.isfinite(seam.ratio) else "unlike"
+                message = (
+                    f"From the last point at {seam.at:g} {position} the correction changes by {change} over "
+                    f"{seam.gap:g} {position} to the first one, {table} {name}."
+                )
+            else:
+                where = f"where {curve.over.axis} begins again at {seam.at:g} {position}"
+                message = f"The correction steps by {change} {where}, by {name}."
+            findings.add("AXC-SEAM", *positions.of_table(tables.axis.number, curve.entry, len(curve.x) - 1), message)

@@ -13,16 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-from ...convert.machines import tables_of
-from ...convert.table import CompensationTable
+from ...engine.motion import Array
+from ...kinds import Tables, tables_of
 from ...lists.findings import Findings
 from ...measurement.iso230 import Iso230Result, evaluate
 from ...measurement.positioning import Positioning
 from ...model.machine import Machine
-from .curves import CROSS_ENTRY, PER_MILLE, Array, table_name
-from .places import ListPlaces
+from .positions import Positions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,8 +46,8 @@ class SignResult:
     ----------
     name : str
         The table in words.
-    kind : str
-        ``leadscrew`` or ``cross``.
+    entry : str
+        Name of its entries in the list.
     evaluations : mapping of str to Iso230Result
         Of the measurement ``without``, and with the table ``as written``, with the ``opposite sign`` and, if it is
         bilateral, with ``directions interchanged``.
@@ -58,7 +56,7 @@ class SignResult:
     """
 
     name: str
-    kind: str
+    entry: str
     evaluations: Mapping[str, Iso230Result]
     gain: float
 
@@ -141,40 +139,44 @@ def sign_of(machine: Machine, measurement: Positioning, axis: str, over: str) ->
         There is no such axis or table, or the measurement is in other units; the message says so.
     """
     table = _table(machine, axis, over)
+    curves = [curve.added() for curve in table.curves]
     units = (measurement.unit, measurement.deviating_unit or measurement.unit)
-    if units != (table.over_unit, table.unit):
+    own = (machine.axis(over).unit, machine.axis(axis).unit)
+    if units != own:
         raise ValueError(
             f"{measurement.source}: it is in {' and '.join(dict.fromkeys(units))}, {table.name} in "
-            f"{' and '.join(dict.fromkeys((table.over_unit, table.unit)))}"
+            f"{' and '.join(dict.fromkeys(own))}"
         )
-    added = _added(table, measurement, measurement.directions)
+    # In the unit of the deviations.
+    forwards, backwards = (np.array(side.shown().at(measurement.targets)) for side in (curves[0], curves[-1]))
+    added, interchanged = (
+        np.where(directions > 0, forwards, backwards)
+        for directions in (measurement.directions, -measurement.directions)
+    )
     readings = {WITHOUT: np.zeros_like(added), WRITTEN: added, REVERSED: -added}
-    if table.negative is not None:
-        readings[INTERCHANGED] = _added(table, measurement, -measurement.directions)
+    if len(curves) > 1:
+        readings[INTERCHANGED] = interchanged
     evaluations = {
         name: evaluate(measurement.with_deviations(measurement.deviations + one)) for name, one in readings.items()
     }
-    kind = "leadscrew" if axis == over else "cross"
-    name = table_name(machine.axis(axis), kind, machine.axis(over))
-    return SignResult(name, kind, evaluations, _gain(measurement.deviations, added))
+    return SignResult(table.name, curves[0].entry, evaluations, _gain(measurement.deviations, added))
 
 
-def _table(machine: Machine, axis: str, over: str) -> CompensationTable:
+def _table(machine: Machine, axis: str, over: str) -> Tables:
     names = [one.name for one in machine.axes]
     for name in (axis, over):
         if name not in names:
             raise ValueError(f"there is no axis {name!r}; the machine has {', '.join(names) or 'none'}")
-    kind = "leadscrew" if axis == over else "cross"
-    [table] = tables_of(machine, axis, kind)
-    if table.over != over:
-        raise ValueError(f"the cross table of {axis} is over {table.over}, not over {over}")
+    found = [
+        one for one in tables_of(machine, axis) if one.curves and (one.curves[0].over.axis == axis) == (axis == over)
+    ]
+    if not found:
+        kind = "leadscrew" if axis == over else "cross"
+        raise ValueError(f"no {kind} compensation of axis {axis} is in force")
+    table = found[0]
+    if table.curves[0].over.axis != over:
+        raise ValueError(f"the {table.kind} table of {axis} is over {table.curves[0].over.axis}, not over {over}")
     return table
-
-
-def _added(table: CompensationTable, measurement: Positioning, directions: npt.NDArray[np.int64]) -> Array:
-    """Return what is added at each reading, in the unit of the deviations."""
-    forwards, backwards = (PER_MILLE * table.at(measurement.targets, direction) for direction in (1, -1))
-    return np.where(directions > 0, forwards, backwards)
 
 
 def _gain(deviations: Array, added: Array) -> float:
@@ -184,7 +186,7 @@ def _gain(deviations: Array, added: Array) -> float:
 
 
 def judge_signs(
-    machine: Machine, measurements: Sequence[tuple[Positioning, str, str]], places: ListPlaces, findings: Findings
+    machine: Machine, measurements: Sequence[tuple[Positioning, str, str]], positions: Positions, findings: Findings
 ) -> list[SignResult]:
     """Note and return what the tables do to measurements, each with the axis that deviates and the one that moved.
 
@@ -196,7 +198,6 @@ def judge_signs(
     results = []
     for measurement, axis, over in measurements:
         result = sign_of(machine, measurement, axis, over)
-        entry = "kw.ssfk.table[i].pos" if result.kind == "leadscrew" else CROSS_ENTRY
-        findings.add(result.code, *places.of_table(machine.axis(axis).number, entry, 0), result.message)
+        findings.add(result.code, *positions.of_table(machine.axis(axis).number, result.entry, 0), result.message)
         results.append(result)
     return results

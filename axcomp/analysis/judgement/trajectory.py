@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ...engine.motion import Array
 from ...interface.variables import identifier
 from ...model.machine import Axis, Machine
-from .curves import Array
 
 SEPARATORS = (".", "_")
 """Of ``X.setpoint`` and ``X_setpoint``."""

@@ -8,8 +8,7 @@ import pytest
 from axcomp import read_machine
 from axcomp.analysis.budget.contributions import Budget, budget_of
 from axcomp.engine.trajectory import InputFile, read_input
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, AxisType, Machine
 from axcomp.model.volumetric import ERRORS, ErrorTable, Volumetric
@@ -50,11 +49,11 @@ def test_axis_compensations_contribute_what_stands_in_their_tables() -> None:
     assert budget.gap_to_engine("X") < 1e-12
 
 
-def test_rotary_axes_are_in_thousandths_of_a_degree() -> None:
+def test_rotary_axes_are_in_seconds_of_arc() -> None:
     machine = Machine((Axis(4, "C", AxisType.ROTARY, leadscrew=Leadscrew((0.0, 90.0), (0.0, 0.009))),))
     budget = budget_of(machine, path_of(C=[0, 45]))
-    assert budget.units["C"] == "0.001°"
-    assert by_source(budget, "C")["leadscrew"].values == pytest.approx([0, -4.5])
+    assert budget.units["C"] == "″"
+    assert by_source(budget, "C")["leadscrew"].values == pytest.approx([0, -16.2])
 
 
 NO = (0, 0, 0, 0)

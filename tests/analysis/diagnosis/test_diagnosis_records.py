@@ -15,9 +15,10 @@ from axcomp.model.volumetric import LETTERS
 
 
 def diagnosis_of(folder: Path) -> Diagnosis:
-    (source,), faults = volumetric_lists(folder)
+    reading = read_machine(folder)
+    (source,), faults = volumetric_lists(reading)
     assert faults == []
-    return diagnose(source, read_machine(folder))
+    return diagnose(source, reading)
 
 
 def short(records: tuple[Record, ...]) -> list[tuple[str, tuple[float, ...], float, int, str]]:

@@ -22,8 +22,9 @@ FIVE_AXIS = models() / "five_axis"
 
 
 def written(folder: Path, output: Path, index: int = 0) -> Path:
-    source = next(source for source in volumetric_lists(folder)[0] if source.index == index)
-    workbook.write_workbook(diagnose(source, read_machine(folder)), output)
+    reading = read_machine(folder)
+    source = next(source for source in volumetric_lists(reading)[0] if source.index == index)
+    workbook.write_workbook(diagnose(source, reading), output)
     return output
 
 

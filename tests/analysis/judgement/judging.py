@@ -9,9 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from axcomp.analysis.judgement import Judgement, judge
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import read_machine
 from axcomp.measurement.positioning import Positioning
 from axcomp.model.companions import models
@@ -41,7 +39,9 @@ def table_of_c(positions: Sequence[float], values: Sequence[float], modulo: bool
 
 
 def codes(machine: Machine, path: Path | None = None, **evidence) -> list[str]:
-    return [finding.code for finding in judge(machine, path, **evidence).findings]
+    return [
+        finding.code for finding in judge(machine, None if path is None else read_machine(path), **evidence).findings
+    ]
 
 
 def said(judgement: Judgement, code: str) -> str:

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from judging import THREE_AXIS, leadscrew_machine, measured
 
-from axcomp.analysis.judgement.places import ListPlaces
+from axcomp.analysis.judgement.positions import Positions
 from axcomp.cli import main
 from axcomp.lists import read_machine, write_machine
 
@@ -113,15 +113,15 @@ def test_the_command_needs_neither_pandas_nor_matplotlib(lists: Path) -> None:
     assert result.stderr.strip() == "[]"
 
 
-def test_places_are_found_without_a_start_up_list_too(lists: Path) -> None:
+def test_positions_are_found_without_a_start_up_list_too(lists: Path) -> None:
     (lists / "hochlauf.lis").unlink()
-    place = ListPlaces(lists).of_table(1, "kw.ssfk.table[i].pos", 5)
-    assert place.file == str(lists / "achskw1.lis")
-    assert Path(place.file).read_text().split("\n")[place.line - 1].split()[0] == place.parameter
-    one = ListPlaces(lists / "achskw1.lis").of_table(1, "kw.ssfk.table[i].pos", 5)
-    assert one == place
+    position = Positions(read_machine(lists)).of_table(1, "kw.ssfk.table[i].pos", 5)
+    assert position.file == str(lists / "achskw1.lis")
+    assert Path(position.file).read_text().split("\n")[position.line - 1].split()[0] == position.parameter
+    one = Positions(read_machine(lists / "achskw1.lis")).of_table(1, "kw.ssfk.table[i].pos", 5)
+    assert one == position
     assert read_machine(lists).machine.axes[0].leadscrew is not None
 
 
-def test_without_lists_there_is_no_place() -> None:
-    assert ListPlaces(None).of_table(1, "kw.ssfk.table[i].pos", 5) == ("", 0, "kw.ssfk.table[5].pos")
+def test_without_lists_there_is_no_position() -> None:
+    assert Positions(None).of_table(1, "kw.ssfk.table[i].pos", 5) == ("", 0, "kw.ssfk.table[5].pos")

@@ -5,11 +5,10 @@ import pytest
 from judging import codes, cross_machine, judge, leadscrew_machine, plane_machine, said, table_of_c
 
 from axcomp.analysis.judgement import Demand
-from axcomp.analysis.judgement.curves import curves_of
 from axcomp.analysis.judgement.dynamics import dynamics_of, ramp_rates
 from axcomp.analysis.judgement.seam import seam_of
 from axcomp.engine.engine import Engine
-from axcomp.kinds.cross import Cross
+from axcomp.kinds import Cross, tables_of
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 FEED = Demand({"": 500.0})
@@ -104,14 +103,15 @@ def test_the_picture_has_a_scale_for_the_added_velocity() -> None:
 def test_the_gap_of_a_modulo_table_by_hand() -> None:
     # From −2 m° at 330° to 0 at 360°: 2 m° over 30°; elsewhere at most 2 m° over 330°.
     machine = table_of_c((0.0, 330.0), (0.0, 0.002))
-    [curve] = curves_of(machine)
-    seam = seam_of(curve)
+    [tables] = tables_of(machine)
+    [curve] = tables.curves
+    seam = seam_of(curve, machine.axis("C").modulo)
     assert seam is not None
     assert (seam.at, seam.gap) == (330.0, 30.0)
     assert seam.change == pytest.approx(0.002)
     assert seam.ratio == pytest.approx(11.0)
     message = said(judge(machine), "AXC-SEAM")
-    assert "changes by +2.0 m° over 30 ° to the first one, 11.0 times as steep" in message
+    assert "changes by +7.2 ″ over 30 ° to the first one, 11.0 times as steep" in message
 
 
 def test_a_seam_like_the_rest_of_the_table_is_not_flagged() -> None:
@@ -124,12 +124,12 @@ def test_a_full_turn_must_end_where_it_began(end: float, expected: list[str]) ->
     machine = table_of_c((0.0, 180.0, 360.0), (0.0, 0.002, end))
     assert codes(machine) == expected
     if expected:
-        assert "steps by +4.0 m° where C begins again at 360 °" in said(judge(machine), "AXC-SEAM")
+        assert "steps by +14.4 ″ where C begins again at 360 °" in said(judge(machine), "AXC-SEAM")
 
 
 def test_a_table_without_modulo_steps_where_its_axis_begins_again() -> None:
     machine = table_of_c((10.0, 350.0), (0.001, 0.003), modulo=False)
-    assert "steps by +2.0 m°" in said(judge(machine), "AXC-SEAM")
+    assert "steps by +7.2 ″" in said(judge(machine), "AXC-SEAM")
     cross = Machine(
         (
             Axis(1, "X", cross=Cross(2, (0.0, 180.0), (0.0, 0.01))),

@@ -94,7 +94,8 @@ def test_the_finding_names_file_line_and_figures_by_hand(tmp_path: Path) -> None
     y = np.full(12, 0.004)
     y[5] = -0.004
     write_machine(cross_machine(10.0 * np.arange(12), y), tmp_path)
-    [finding] = judge(read_machine(tmp_path).machine, tmp_path).findings
+    reading = read_machine(tmp_path)
+    [finding] = judge(reading.machine, reading).findings
     assert finding.message == (
         "The value -4.0 µm at 50 mm is -8.0 µm off its neighbours, where ±0.1 µm is ordinary in the cross table of X "
         "over Y."

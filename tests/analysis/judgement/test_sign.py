@@ -9,8 +9,8 @@ from judging import THREE_AXIS, codes, example, judge, leadscrew_machine, measur
 
 from axcomp.analysis.judgement import sign_of
 from axcomp.convert.machines import tables_of
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
+from axcomp.lists import read_machine
 from axcomp.measurement.positioning import Positioning
 from axcomp.model.machine import Axis, AxisType, Machine
 
@@ -30,7 +30,7 @@ def test_the_examples_tables_shrink_the_error_that_the_plant_shows(axis: str, ov
     assert result.verdict == "as written"
     assert result.error("as written") < 0.12 * result.error("without")
     assert result.gain == pytest.approx(1.0, abs=0.03)
-    judgement = judge(example(), THREE_AXIS, measurements=[(measured(axis, over), axis, over or axis)])
+    judgement = judge(example(), read_machine(THREE_AXIS), measurements=[(measured(axis, over), axis, over or axis)])
     message = said(judgement, "AXC-SIGN")
     assert f"shrinks from {result.error('without'):.2f} µm to {result.error('as written'):.2f} µm" in message
     [finding] = [finding for finding in judgement.findings if finding.code == "AXC-SIGN"]
@@ -80,7 +80,7 @@ def test_interchanged_directions_are_named() -> None:
 def test_a_measurement_with_the_compensation_on_is_not_taken_for_an_inverted_table() -> None:
     table = tables_of(example(), "Y", "leadscrew")[0]
     raw = measured("Y")
-    on = raw.with_deviations(raw.deviations + 1e3 * table.at(raw.targets))
+    on = raw.with_deviations(raw.deviations + 1e3 * np.array(table.at(raw.targets)))
     message = said(judge(example(), measurements=[(on, "Y", "Y")]), "AXC-SIGN-NO-HELP")
     assert "was the compensation on" in message
 

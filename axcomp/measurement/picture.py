@@ -6,22 +6,19 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from ..engine.motion import Array
-from ..measurement.iso230 import SYMBOLS, Iso230Result
+from ..model.quantity import symbol
+from ..plot.style import DOWN, UP, labelled, new_figure
+from .iso230 import SYMBOLS, Iso230Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-UP, DOWN = "#0b62a4", "#c4511a"
-"""Colours of motion in positive and in negative direction."""
-
 
 def plot(result: Iso230Result, ax: Axes | None = None) -> Axes:
     """Draw a result into ``ax``, or into a new figure; return the axes."""
-    if ax is None:
-        ax = Figure(figsize=(10.0, 5.6), dpi=120, layout="constrained").add_subplot()
+    ax = new_figure().add_subplot() if ax is None else ax
     readings = result.readings
     sides = ((UP, 1, "↑", result.mean_up, result.s_up), (DOWN, -1, "↓", result.mean_down, result.s_down))
     for colour, direction, arrow, mean, s in sides:
@@ -43,11 +40,10 @@ def plot(result: Iso230Result, ax: Axes | None = None) -> Axes:
         if name in ("A", "E", "R", "M", "B") and not math.isnan(value)
     ]
     title = f"Positioning of axis {result.axis}" if result.axis else "Positioning"
-    ax.set_title(title + (f":  {',  '.join(figures)} {result.unit}" if figures else ""), fontsize=12)
-    position = "mm" if result.position_unit == "mm" else "°"
-    ax.set_xlabel(f"target position [{position}]", fontsize=11)
-    ax.set_ylabel(f"deviation, actual − target [{result.unit}]", fontsize=11)
-    ax.grid(visible=True, color="0.9", lw=0.7)
+    title += f":  {',  '.join(figures)} {result.unit}" if figures else ""
+    labelled(
+        ax, title, f"target position [{symbol(result.position_unit)}]", f"deviation, actual − target [{result.unit}]"
+    )
     ax.legend(loc="best", ncols=3, fontsize=10, framealpha=0.9)
     return ax
 

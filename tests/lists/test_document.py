@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from axcomp.kinds.parameter import ListKind
 from axcomp.lists.catalogue import CATALOGUE
-from axcomp.lists.edit import edited
+from axcomp.lists.document import Document
 from axcomp.lists.findings import Findings
 from axcomp.lists.values import read_values
 
@@ -62,6 +62,12 @@ frict_comp.mode 3
 End
 kw.ssfk.table[0].pos behind the end
 """
+
+
+def edited(data, new, owned, heading, keep_row_comments):
+    document = Document("list.lis", data, ListKind.COMPENSATION)
+    document.replace_entries(new, owned, heading, keep_row_comments)
+    return document.to_bytes()
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])

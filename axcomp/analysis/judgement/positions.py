@@ -1,0 +1,41 @@
+"""Where in the lists something stands: file, line and entry of what a judgement is about."""
+
+from __future__ import annotations
+
+from ...kinds.parameter import ListKind
+from ...lists import Document, Position, Reading
+from ...lists.catalogue import parameter
+
+
+class Positions:
+    """Finds entries of a machine's lists.
+
+    Parameters
+    ----------
+    reading : Reading or None
+        None: the machine does not come from lists, and every position has file "".
+    """
+
+    def __init__(self, reading: Reading | None) -> None:
+        self._reading = reading
+
+    def of_table(self, axis: int, name: str, *indices: int) -> Position:
+        """Return the position of an entry in the compensation list of an axis, else of the first one of its table."""
+        document = None if self._reading is None else self._reading.compensation_list(axis)
+        return self._position(document, ListKind.COMPENSATION, name, indices)
+
+    def of_axis(self, axis: int, name: str) -> Position:
+        """Return the position of an entry in the axis list of an axis."""
+        document = None if self._reading is None else self._reading.axis_list(axis)
+        return self._position(document, ListKind.AXIS, name, ())
+
+    def of_volumetric(self, index: int) -> Position:
+        """Return the position that names the list of a volumetric compensation."""
+        document = None if self._reading is None else self._reading.start_up
+        return self._position(document, ListKind.START_UP, "vol_comp[i].file_name", (index,))
+
+    def _position(self, document: Document | None, kind: ListKind, name: str, indices: tuple[int, ...]) -> Position:
+        if document is not None:
+            return document.position(name, *indices)
+        file = "" if self._reading is None else str(self._reading.path)
+        return Position(file, 0, parameter(kind, name).named(*indices) if indices else name)
