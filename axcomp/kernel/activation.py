@@ -6,12 +6,18 @@ crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12
 
 from __future__ import annotations
 
-from .records import AxisInputs, AxisState, AxisTable, Inputs
+from .records import AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs
 from .switching import SwitchTable, advance_switch, begin_switch, heed_command
 
 
 def activate_if_stirred(
-    table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs, moving: bool, references_changed: bool
+    table: AxisTable,
+    axis: AxisState,
+    inputs: Inputs,
+    given: AxisInputs,
+    out: AxisOutputs,
+    moving: bool,
+    references_changed: bool,
 ) -> None:
     """Advance the switches of an axis by one cycle, unless they have settled and nothing is commanded or has changed.
 
@@ -25,11 +31,17 @@ def activate_if_stirred(
         if given.enable[kind] != axis.switching[kind].enable and table.switching[kind].configured:
             stirred = True
     if stirred:
-        activate(table, axis, inputs, given, released, moving)
+        activate(table, axis, inputs, given, out, released, moving)
 
 
 def activate(
-    table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs, released: bool, moving: bool
+    table: AxisTable,
+    axis: AxisState,
+    inputs: Inputs,
+    given: AxisInputs,
+    out: AxisOutputs,
+    released: bool,
+    moving: bool,
 ) -> None:
     """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
 
@@ -38,8 +50,8 @@ def activate(
     axis.settled = axis.started and not axis.held
     for k in range(table.kinds):
         kind = table.kind[k]
+        state = axis.switching[kind]
         if table.switching[kind].configured:
-            state = axis.switching[kind]
             ready = is_referenced(table.switching[kind], inputs)
             if not axis.started:
                 begin_switch(table.switching[kind], state, given.enable[kind], ready, released)
@@ -48,6 +60,8 @@ def activate(
                 if not axis.held:
                     settled = advance_switch(table.switching[kind], state, ready, moving)
                     axis.settled = axis.settled and settled
+        if not axis.held:
+            out.active[kind] = state.step > 0
 
 
 def is_referenced(table: SwitchTable, inputs: Inputs) -> bool:

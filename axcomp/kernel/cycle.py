@@ -36,7 +36,7 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
         if inputs.reset:
             axis.error = 0
         moving = state.motion.axis[i].moving
-        activate_if_stirred(tables.axis[i], axis, inputs, inputs.axis[i], moving, references_changed)
+        activate_if_stirred(tables.axis[i], axis, inputs, inputs.axis[i], outputs.axis[i], moving, references_changed)
         if axis.held:
             outputs.axis[i].error = ERROR_INPUT
         else:
@@ -126,5 +126,4 @@ def correct_by(
     if not axis.settled and kind < FRICTION:
         absorb_switch(axis.shift, kind < LEADSCREW, own.absorbed * value)
     out.contribution[kind] = contribution
-    out.active[kind] = own.step > 0
     return contribution

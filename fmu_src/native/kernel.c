@@ -1329,13 +1329,13 @@ static bool is_referenced(const SwitchTable *table, const Inputs *inputs)
  * While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
  */
 static void activate(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
-        bool released, bool moving)
+        AxisOutputs *out, bool released, bool moving)
 {
     axis->settled = axis->started && !axis->held;
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
         int32_t kind = table->kind[k];
+        SwitchState *state = &axis->switching[kind];
         if (table->switching[kind].configured) {
-            SwitchState *state = &axis->switching[kind];
             bool ready = is_referenced(&table->switching[kind], inputs);
             if (!axis->started) {
                 begin_switch(&table->switching[kind], state, given->enable[kind], ready, released);
@@ -1347,6 +1347,9 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
                 }
             }
         }
+        if (!axis->held) {
+            out->active[kind] = state->step > 0;
+        }
     }
 }
 
@@ -1355,7 +1358,7 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
  * Manual compensations go off by reset, program end, or the edge with which the axis is released.
  */
 static void activate_if_stirred(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
-        bool moving, bool references_changed)
+        AxisOutputs *out, bool moving, bool references_changed)
 {
     bool released = inputs->reset || inputs->program_end || (given->released && !axis->released);
     axis->released = given->released;
@@ -1367,7 +1370,7 @@ static void activate_if_stirred(const AxisTable *table, AxisState *axis, const I
         }
     }
     if (stirred) {
-        activate(table, axis, inputs, given, released, moving);
+        activate(table, axis, inputs, given, out, released, moving);
     }
 }
 
@@ -2287,7 +2290,6 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
         absorb_switch(&axis->shift, kind < LEADSCREW, own->absorbed * value);
     }
     out->contribution[kind] = contribution;
-    out->active[kind] = own->step > 0;
     return contribution;
 }
 
@@ -2340,7 +2342,8 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
             axis->error = 0;
         }
         bool moving = state->motion.axis[i].moving;
-        activate_if_stirred(&tables->axis[i], axis, inputs, &inputs->axis[i], moving, references_changed);
+        activate_if_stirred(&tables->axis[i], axis, inputs, &inputs->axis[i], &outputs->axis[i], moving,
+                references_changed);
         if (axis->held) {
             outputs->axis[i].error = ERROR_INPUT;
         } else {

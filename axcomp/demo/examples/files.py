@@ -36,18 +36,13 @@ def write_expected(model: Path, folder: Path) -> Path:
     """Write ``expected.csv``: what FMPy records of the FMU on ``input.csv``, which lies in ``folder`` too.
 
     The row of an instant holds the outputs at the end of the step before it, which belong to the inputs at its
-    beginning; the first row those computed at the end of initialization. Outputs of compensations that are activated
-    without a table are left out: they are 0.
+    beginning; the first row those computed at the end of initialization.
     """
     inputs = read_csv(folder / INPUT)
-    engine = Engine(model)
-    result = engine.run(inputs)
+    result = Engine(model).run(inputs)
     columns = {"time": inputs["time"]}
-    for variable in engine.variables:
-        kinds = () if variable.axis is None else engine.machine.axes[variable.axis].reserved
-        if variable.name in result.values and not any(f".{kind}." in variable.name for kind, _ in kinds):
-            values = result[variable.name]
-            columns[variable.name] = np.concatenate([values[:1], values[:-1]])
+    for name, values in result.values.items():
+        columns[name] = np.concatenate([values[:1], values[:-1]])
     return _write(folder / EXPECTED, columns)
 
 
