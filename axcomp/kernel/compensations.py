@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_fits, backlash_value
+from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_at, backlash_fits, backlash_value
 from .cross import CrossState, CrossTable, adopt_cross, cross_fits, cross_value, move_cross
 from .crosstalk import CrosstalkState, CrosstalkTable, adopt_crosstalk, crosstalk_fits, crosstalk_value, move_crosstalk
 from .friction import (
@@ -20,7 +20,15 @@ from .friction import (
     friction_fits,
     move_friction,
 )
-from .leadscrew import LeadscrewState, LeadscrewTable, adopt_leadscrew, leadscrew_fits, leadscrew_value, move_leadscrew
+from .leadscrew import (
+    LeadscrewState,
+    LeadscrewTable,
+    adopt_leadscrew,
+    leadscrew_at,
+    leadscrew_fits,
+    leadscrew_value,
+    move_leadscrew,
+)
 from .motion import Motion
 from .plane import PlaneTable, move_plane, plane_fits, plane_value
 from .record import Vec
@@ -110,11 +118,37 @@ def compensation_value(
     return friction_current(pool, tables.friction, states.friction, given.friction, motion.axis[axis], cycle_time)
 
 
-def is_renewed(kind: int, states: CompensationStates, given: CompensationInputs) -> bool:
-    """Take over the inputs of a kind; True: its values change by them, and are to blend in."""
+def settled_value(
+    kind: int, pool: Vec, tables: CompensationTables, states: CompensationStates, motion: Motion, axis: int
+) -> float:
+    """Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0."""
+    if kind == LEADSCREW:
+        return leadscrew_at(pool, tables.leadscrew, states.leadscrew, states.leadscrew.counted)
+    if kind == BACKLASH:
+        return backlash_at(tables.backlash, states.backlash)
+    if kind == CROSS:
+        return cross_value(pool, tables.cross, states.cross, motion)
+    if kind == PLANE:
+        return plane_value(pool, tables.plane, motion)
+    if kind == CROSSTALK:
+        return crosstalk_value(pool, tables.crosstalk, states.crosstalk, motion)
     if kind == TEMPERATURE:
-        return take_temperature(states.temperature, given.temperature)
-    return False
+        return temperature_value(tables.temperature, states.temperature, motion.axis[axis].setpoint)
+    return 0.0
+
+
+def has_inputs(kind: int) -> bool:
+    """Tell whether a kind is given what its values change by."""
+    return kind == TEMPERATURE
+
+
+def renew(
+    kind: int, tables: CompensationTables, states: CompensationStates, given: CompensationInputs, position: float
+) -> float:
+    """Take over the inputs of a kind; return how much less it adds at full weight with them."""
+    if kind == TEMPERATURE:
+        return take_temperature(tables.temperature, states.temperature, given.temperature, position)
+    return 0.0
 
 
 def has_notice(kind: int, states: CompensationStates) -> bool:

@@ -40,8 +40,10 @@ THINNEST = 1e-3
 
 
 def adaptation_axes(crosstalk: Crosstalk | CrosstalkCurve) -> tuple[int | None, ...]:
-    """Return the adaptation axes of the new variant, None where its mode needs none; none of the old one."""
-    return (crosstalk.adaptation1, crosstalk.adaptation2) if isinstance(crosstalk, Crosstalk) else ()
+    """Return the adaptation axes that the mode of the new variant uses, None where one lacks; none of the old one."""
+    if isinstance(crosstalk, CrosstalkCurve):
+        return ()
+    return (crosstalk.adaptation1, crosstalk.adaptation2)[: crosstalk.mode - 1]
 
 
 def _translatory(source: TableReader, name: str, purpose: str) -> Any:

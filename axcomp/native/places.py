@@ -109,11 +109,14 @@ def _member(block: int, declared: Declaration) -> str:
 
 def _layout_of(cls: Any) -> list[str]:
     structure = ctypes_of(cls)
-    lines = [f"{cls.__name__} {ctypes.sizeof(structure)}"]
+    return [f"{cls.__name__} {ctypes.sizeof(structure)}", *_fields_of(structure)]
+
+
+def _fields_of(structure: Any) -> Iterator[str]:
+    """Yield the fields of a structure, and those of the structures in it, with their types and places."""
     for name, kind, *_ in structure._fields_:
         place = getattr(structure, name)
-        lines.append(f"{name} {kind.__name__} {place.offset} {place.size}")
+        yield f"{name} {kind.__name__} {place.offset} {place.size}"
         inner = getattr(kind, "_type_", kind)
         if isinstance(inner, type) and issubclass(inner, ctypes.Structure):
-            lines += [f"  {field[0]} {getattr(inner, field[0]).offset}" for field in inner._fields_]
-    return lines
+            yield from _fields_of(inner)

@@ -157,12 +157,12 @@ class Runtime:
             machine = replace(machine, axes=tuple(old if error else new for old, new, error in pairs))
             after, pool = compile_tables(machine, before.cycle_time)
         for index, error in enumerate(errors):
-            state = self.state.axis[index]
+            old, new = before.axis[index], after.axis[index]
             if error == 0:
-                adopt_axis(before.axis[index], after.axis[index], state, self.inputs.axis[index])
+                adopt_axis(old, self.pool, new, pool, self.state, self.inputs.axis[index], index)
             else:
-                keep_declared(before.axis[index], after.axis[index])
-            state.error = self.outputs.axis[index].error = error
+                keep_declared(old, new)
+            self.state.axis[index].error = self.outputs.axis[index].error = error
         adopt_volumetrics(before, after, self.state, self.outputs)
         self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None

@@ -212,8 +212,8 @@ static void take_update(Instance *instance)
             int32_t error = memory->refused ? ERROR_UPDATE : after->errors[i];
             memory->state.axis[i].error = memory->outputs.axis[i].error = error;
             if (error == 0) {
-                axcomp_adopt_axis(&before->tables.axis[i], &after->tables.axis[i], &memory->state.axis[i],
-                                  &memory->inputs.axis[i]);
+                axcomp_adopt_axis(&before->tables.axis[i], before->pool, &after->tables.axis[i], after->pool,
+                                  &memory->state, &memory->inputs.axis[i], i);
             }
         }
     }

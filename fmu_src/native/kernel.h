@@ -46,9 +46,7 @@ typedef struct {
     int32_t step;  /* k of w(k) */
     double weight;  /* w(k), 0 … 1 */
     double absorbed;  /* change of the weight that NO_MOVE takes out of the output, this cycle only */
-    double contribution;  /* what it adds */
-    bool renewed;  /* its values are others than in the last cycle */
-    double difference;  /* what it added before it was renewed, less what it adds now */
+    double difference;  /* what it added with its old values, less what it adds with the new ones, when those came */
     int32_t blend_step;  /* of the transition to the new values: blend_cycles … 0 */
 } SwitchState;
 
@@ -311,6 +309,7 @@ typedef struct {
     Shift before;
     Shift behind;
     int32_t step;  /* of the release: shift_cycles … 0; 0: none is under way */
+    bool pending;  /* there is a shift */
 } ShiftState;
 
 /* ============================ volumetric_records ============================
@@ -448,6 +447,8 @@ typedef struct {
     int32_t numbers;
     double modulo_range;  /* 0: no modulo axis */
     int32_t shift_cycles;  /* over which a shift is released, at least 1 */
+    int32_t kinds;  /* that the axis activates, with or without a table */
+    int32_t kind[KINDS];  /* their numbers, ascending */
     SwitchTable switching[KINDS];
     CompensationTables compensation;
 } AxisTable;
@@ -456,6 +457,8 @@ typedef struct {
 typedef struct {
     bool started;
     bool held;  /* this cycle's inputs cannot be used */
+    bool settled;  /* no switch changes until a command, a reference or a release does */
+    bool referenced;  /* the input in the last cycle */
     bool released;  /* the input in the last cycle */
     int32_t error;  /* stays until reset */
     bool stop_request;  /* stays until reset, or until a volumetric compensation is switched on again */
@@ -563,8 +566,9 @@ AXCOMP_API void axcomp_cycle(const Tables *tables, const double *pool, State *st
 /* Return why an axis cannot take new tables, 0 if it can. */
 AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after);
 
-/* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
-AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given);
+/* Make the state of axis i fit its new tables (`update_error` is 0); what was declared stays declared. */
+AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisTable *after,
+        const double *after_pool, State *state, AxisInputs *given, int32_t i);
 
 /* Let what an axis activated at the start count for the next update too. */
 AXCOMP_API void axcomp_keep_declared(const AxisTable *before, AxisTable *after);
