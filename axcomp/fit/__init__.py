@@ -1,1 +1,57 @@
-"""."""
+"""Lists from measurements: one module a kind of compensation that says what is special about it, one way for all."""
+
+from collections.abc import Mapping
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
+
+from ..kinds import KINDS
+from ..measurement.readings import Readings
+from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation
+from .driver import Fit, Options
+from .target_list import TargetList
+
+FITS: Mapping[str, type[Fit[Any, Any]]] = {
+    name: import_module(f".{name}", __package__).FIT
+    for name in (*KINDS, "volumetric")
+    if find_spec(f".{name}", __package__)
+}
+"""Kind → how readings become its table, for the kinds that have a module here."""
+
+
+def create(kind: str, readings: Readings, target: Any, options: Options | None = None) -> Creation:
+    """Make a list with a new table.
+
+    Parameters
+    ----------
+    kind : str
+        One of ``FITS``.
+    readings : Readings
+        As ``FITS[kind].read`` returns them.
+    target : TargetList or VolumetricTarget
+        As ``FITS[kind].open`` returns it.
+    options : Options, optional
+        How it is made.
+
+    Raises
+    ------
+    CannotCreateError
+        The readings do not suffice, the list does not say enough, or the table does not fit.
+    MeasurementError
+        The list is for another axis.
+    """
+    return FITS[kind](readings, target, options or Options()).create()
+
+
+__all__ = [
+    "FITS",
+    "LEFT_OUT",
+    "MEASURED",
+    "PREDICTED",
+    "CannotCreateError",
+    "Creation",
+    "Fit",
+    "Options",
+    "TargetList",
+    "create",
+]

@@ -182,14 +182,3 @@ class Identifier:
             errors[:, error] += weight[rows] @ column
         modelled = self._model.deviations(self._places[rows], self._measurement.tool_lengths[rows], errors)
         return self._measurement.deviations[rows] - modelled * MICRO
-
-
-def identify(
-    measurement: TcpDeviations,
-    volumetric: Volumetric,
-    names: Sequence[str] | None = None,
-    nodes_max: int = NODES_MAX,
-    scatter: float | None = None,
-) -> Identification:
-    """Return the errors with which the model deviates as was measured: see ``Identifier``."""
-    return Identifier(measurement, volumetric, names, nodes_max, scatter).fit()

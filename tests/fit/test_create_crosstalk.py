@@ -1,17 +1,19 @@
 """Crosstalk tables made from acceleration tests."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from creating import copied_lists, plant
 
 from axcomp.engine.engine import Engine
-from axcomp.fit.create_crosstalk import AccelerationTests, create_crosstalk, read_acceleration_tests
-from axcomp.fit.creation import LEFT_OUT, PREDICTED, CannotCreateError, Options
-from axcomp.fit.target_list import TargetList
+from axcomp.fit import LEFT_OUT, PREDICTED, CannotCreateError, Options, TargetList, create
+from axcomp.fit.crosstalk import AccelerationTests
 from axcomp.lists import read_machine
 from axcomp.model.machine import Axis, Machine
 from axcomp.plant.simulated import acceleration_test
 
+create_crosstalk = partial(create, "crosstalk")
 A = 2000.0
 
 
@@ -162,8 +164,8 @@ def test_what_cannot_be_is_refused(new_list):
 def test_files_are_read_with_and_without_places(tmp_path):
     file = tmp_path / "t.csv"
     file.write_text("acceleration [m/s²],direction,deviation,position1\n-2,neg,3,1.5\n")
-    tests = read_acceleration_tests(file)
+    tests = AccelerationTests.read(file)
     assert tests.accelerations.tolist() == [-2000.0]
     assert tests.places.tolist() == [[1.5, 0.0]]
     file.write_text("2000 + 3\n")
-    assert read_acceleration_tests(file).deviations.tolist() == [3.0]
+    assert AccelerationTests.read(file).deviations.tolist() == [3.0]
