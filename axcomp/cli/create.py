@@ -10,7 +10,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from ..fit import FITS, Creation, Fit, Options, create
+from ..fit import FITS, Creation, Fit, Options, create, fit_of
 from ..measurement.columns import MeasurementError
 from ..measurement.readings import joined
 
@@ -25,8 +25,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     kinds = parser.add_subparsers(metavar="KIND", required=True)
-    for fit in FITS.values():
-        _add_kind(kinds, fit)
+    for kind in FITS:
+        _add_kind(kinds, fit_of(kind))
 
 
 def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], fit: type[Fit[Any, Any]]) -> None:

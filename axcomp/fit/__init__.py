@@ -1,6 +1,5 @@
 """Lists from measurements: one module a kind of compensation that says what is special about it, one way for all."""
 
-from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
@@ -11,12 +10,14 @@ from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation
 from .driver import Fit, Options
 from .target_list import TargetList
 
-FITS: Mapping[str, type[Fit[Any, Any]]] = {
-    name: import_module(f".{name}", __package__).FIT
-    for name in (*KINDS, "volumetric")
-    if find_spec(f".{name}", __package__)
-}
-"""Kind → how readings become its table, for the kinds that have a module here."""
+FITS = tuple(name for name in (*KINDS, "volumetric") if find_spec(f".{name}", __package__))
+"""The kinds that have a module here."""
+
+
+def fit_of(kind: str) -> type[Fit[Any, Any]]:
+    """Return how readings become a table of one of ``FITS``; some take long to load."""
+    found: type[Fit[Any, Any]] = import_module(f".{kind}", __package__).FIT
+    return found
 
 
 def create(kind: str, readings: Readings, target: Any, options: Options | None = None) -> Creation:
@@ -27,9 +28,9 @@ def create(kind: str, readings: Readings, target: Any, options: Options | None =
     kind : str
         One of ``FITS``.
     readings : Readings
-        As ``FITS[kind].read`` returns them.
+        As ``fit_of(kind).read`` returns them.
     target : TargetList or VolumetricTarget
-        As ``FITS[kind].open`` returns it.
+        As ``fit_of(kind).open`` returns it.
     options : Options, optional
         How it is made.
 
@@ -40,7 +41,7 @@ def create(kind: str, readings: Readings, target: Any, options: Options | None =
     MeasurementError
         The list is for another axis.
     """
-    return FITS[kind](readings, target, options or Options()).create()
+    return fit_of(kind)(readings, target, options or Options()).create()
 
 
 __all__ = [
@@ -54,4 +55,5 @@ __all__ = [
     "Options",
     "TargetList",
     "create",
+    "fit_of",
 ]
