@@ -33,6 +33,7 @@ class BacklashFit(OverPosition[Backlash]):
     """
 
     name = "backlash"
+    counted = "amount"
     meaning = "backlash compensation from a positioning measurement in both directions"
     columns = "Renishaw .rtl, or columns target, run, direction, deviation (mm, µm)"
     example = "axcomp create backlash --from x.rtl --into achsmd1.lis"
@@ -74,10 +75,6 @@ class BacklashFit(OverPosition[Backlash]):
         """Return the table, which is one."""
         return table
 
-    def points(self, table: Backlash) -> int:  # noqa: ARG002
-        """Return 1."""
-        return 1
-
     def deviation(self, table: Backlash) -> float:
         """Return the largest reversal value that is left at a target."""
         means = self.means(self.readings)
@@ -85,31 +82,32 @@ class BacklashFit(OverPosition[Backlash]):
 
     def report(self, table: Backlash) -> Report:
         """Say how well the backlash is known, and how alike it is at the targets."""
-        values = -_reversal(self.means(self.readings))
-        mean, off = float(values.mean()), float(np.max(np.abs(values - values.mean())))
-        each = self._uncertainties()
-        count = len(values)
+        values, each = -_reversal(self.means(self.readings)), self._uncertainties()
+        count, mean = len(values), float(values.mean())
+        far = float(np.max(np.abs(values - mean))) > max(_SPREAD * abs(mean), np.nan_to_num(each).max())
         if np.isnan(each).any():
-            # Without repetitions: what the targets scatter by around their mean.
+            # A target without repetitions: what all of them scatter by around their mean.
             each = np.full(count, COVERAGE * np.std(values, ddof=1) if count > 1 else np.nan)
         uncertainty = float(np.sqrt(np.sum(each**2))) / count
         known = "" if np.isnan(uncertainty) else f" (U = {uncertainty:.2f} {self.small}, k = {COVERAGE:g})"
-        far = off > _SPREAD * abs(mean) and not off <= np.max(each)
         unknown = abs(mean) <= uncertainty
         leadscrew = None if self.target.axis is None else self.target.axis.leadscrew
         after = "negative" if table.mode == NEGATIVE else "positive"
         amount = shown(self.unit).factor * table.amount
-        report = super().report(table)
         sentences = (
             f"The measured backlash is {mean:.2f} {self.small}{known}; "
             f"at the targets it is from {values.min():.2f} to {values.max():.2f} {self.small}.",
             f"In mode {table.mode} the drive goes {amount:.1f} {self.small} further after {after} motion; "
             f"a reversal value of {self.deviation(table):.2f} {self.small} at most is left.",
         )
-        details = {"mode": table.mode, "backlash": amount, "measured": mean, "reversal_values": (-values).tolist()}
-        return report._replace(
-            sentences=sentences, details={**details, "uncertainty": None if np.isnan(uncertainty) else uncertainty}
-        ).noted(
+        details = {
+            "mode": table.mode,
+            "backlash": amount,
+            "measured": mean,
+            "uncertainty": None if np.isnan(uncertainty) else uncertainty,
+            "reversal_values": (-values).tolist(),
+        }
+        return Report(sentences, super().report(table).notes, details=details).noted(
             "The backlash differs much over the targets: a bilateral leadscrew table would leave less." if far else "",
             "The backlash is within its uncertainty: there may be none." if unknown else "",
             "The backlash is below 0: are the directions of the measurement right?"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 from math import comb
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -62,22 +62,27 @@ class AccelerationTests(Readings):
     source: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class _Model:
-    """Corrections at a few places: for each the four cases, at the largest acceleration and deceleration, µm."""
+class _Table(NamedTuple):
+    """Corrections (n, cases) at places (n, 2), at the largest acceleration and deceleration, µm."""
 
     places: Array
     corrections: Array
-    largest: tuple[float, float]
 
-    def at(self, tests: AccelerationTests) -> Array:
-        """Return the correction that the controller adds in each test."""
-        cases, shares = _cases(tests, self.largest)
-        found: Array = _at(self, tests.places)[np.arange(len(cases)), cases] * shares
-        return found
+    def at(self, at: Array) -> Array:
+        """Return corrections at places (k, 2): one holds everywhere, a line is linear, a grid bilinear, ends held."""
+        axes = [np.unique(self.places[:, i]) for i in range(2)]
+        if len(self.places) == len(axes[0]) * len(axes[1]):
+            grid = self.corrections.reshape(len(axes[0]), len(axes[1]), -1)
+            return np.asarray(np.einsum("ni,ijc,nj->nc", hats(axes[0], at[:, 0]), grid, hats(axes[1], at[:, 1])))
+        # Places that fill no grid are never thinned: every test stands at one of them.
+        return self.corrections[[int(np.flatnonzero(np.all(self.places == place, axis=1))[0]) for place in at]]
+
+    def only(self, chosen: Any) -> _Table:
+        """Return some of the places."""
+        return _Table(self.places[chosen], self.corrections[chosen])
 
 
-class CrosstalkFit(Fit[AccelerationTests, _Model]):
+class CrosstalkFit(Fit[AccelerationTests, _Table]):
     """Minus the deviation of the slave at the largest acceleration and deceleration measured.
 
     Deviations at smaller accelerations count in proportion, as the controller has it. Places that vary along one axis
@@ -85,6 +90,7 @@ class CrosstalkFit(Fit[AccelerationTests, _Model]):
     """
 
     name = "crosstalk"
+    counted = "tests"
     meaning = "crosstalk table from acceleration tests"
     columns = (
         "columns acceleration (mm/s²), direction, deviation (of the slave; µm), and where they vary position1, "
@@ -114,80 +120,91 @@ class CrosstalkFit(Fit[AccelerationTests, _Model]):
         self.largest = float(self.readings.accelerations.max()), float(self.readings.accelerations.min())
         if not self.largest[0] > 0.0 > self.largest[1]:
             raise CannotCreateError("the tests have to hold accelerations (above 0) and decelerations (below 0)")
-        self.both = set(self.readings.directions) == {1, -1}
+        self.cases = CASES if set(self.readings.directions) == {1, -1} else CASES[::2]
 
     def _adaptation(self, i: int) -> int:
         name = f"kw.crosstalk.master_pos{i + 1}_ax_nr"
         return self.axis_number(self.options.adaptation, i, name, f"axis position{i + 1} is of ({name})")
 
+    def _cases(self, tests: AccelerationTests) -> tuple[npt.NDArray[np.int64], Array]:
+        """Return for each test which of ``cases`` it is, and which share of the correction acts in it."""
+        braking = tests.accelerations < 0.0
+        cases = 2 * braking + (tests.directions < 0) if len(self.cases) == len(CASES) else 1 * braking
+        shares = tests.accelerations / np.where(braking, self.largest[1], self.largest[0])
+        return cases, np.minimum(shares, 1.0)
+
     def means(self, readings: AccelerationTests) -> AccelerationTests:
-        """Return what the corrections that leave least take off in each case at each place."""
-        model = _fitted(readings, self.largest, self.both)
-        cases = [i for i in range(4) if self.both or i % 2 == 0]
-        count = len(model.places)
+        """Return what is left least of in each case at each place, at the largest acceleration."""
+        places, place = np.unique(readings.places, axis=0, return_inverse=True)
+        cases, shares = self._cases(readings)
+        weights, sums = np.zeros((2, len(places), len(self.cases)))
+        np.add.at(weights, (place.ravel(), cases), shares**2)
+        np.add.at(sums, (place.ravel(), cases), shares * readings.deviations)
+        for i, case in np.argwhere(weights == 0.0):
+            what = self.cases[case].replace("_", ", ")
+            raise CannotCreateError(f"there is no test ({what} direction) at {places[i, 0]:g}, {places[i, 1]:g}")
         return AccelerationTests(
-            np.tile(model.places, (len(cases), 1)),
-            np.repeat([self.largest[i // 2] for i in cases], count),
-            np.repeat([1 - 2 * (i % 2) for i in cases], count),
-            -model.corrections[:, cases].T.ravel(),
-            np.ones(len(cases) * count, dtype=np.int64),
+            np.repeat(places, len(self.cases), axis=0),
+            np.tile([self.largest["decelerate" in case] for case in self.cases], len(places)),
+            np.tile([1 - 2 * ("negative" in case) for case in self.cases], len(places)),
+            (sums / weights).ravel(),
+            np.ones(weights.size, dtype=np.int64),
         )
 
-    def table(self, means: AccelerationTests) -> _Model:
-        """Return corrections at a few places."""
-        thinned = self._thinned(_fitted(means, self.largest, self.both))
-        return replace(thinned, corrections=self.listed(thinned.corrections))
+    def table(self, means: AccelerationTests) -> _Table:
+        """Return corrections at as few places as keep the bound, or the closest ones that a list takes."""
+        cases = len(self.cases)
+        thinned = self._thinned(_Table(means.places[::cases], -means.deviations.reshape(-1, cases)))
+        return _Table(thinned.places, self.listed(thinned.corrections))
 
-    def _thinned(self, model: _Model) -> _Model:
-        """Return a model with as few places as keep the bound, or the closest one that a list takes."""
-        bound, count = self.options.bound, len(model.places)
+    def _thinned(self, full: _Table) -> _Table:
+        bound, count = self.options.bound, len(full.places)
         if self.mode == 1 or (bound is None and count <= TESTS_MAX):
-            return model
+            return full
         if self.mode == 2:
-            places = self.chosen(model.places[:, 0], model.corrections.T)
-            return replace(model, places=model.places[places], corrections=model.corrections[places])
-        axes = [np.unique(model.places[:, i]) for i in range(2)]
+            return full.only(self.chosen(full.places[:, 0], full.corrections.T))
+        axes = [np.unique(full.places[:, i]) for i in range(2)]
         if len(axes[0]) * len(axes[1]) != count:
             if bound is None:
                 sentence = f"a list takes {TESTS_MAX} tests; {count} places that fill no grid are not thinned"
                 raise CannotCreateError(sentence)
-            return model
-        best: tuple[tuple[float, float], _Model] | None = None
+            return full
+        best: tuple[tuple[float, float], _Table] | None = None
         for chosen in _choices(axes):
-            candidate = _at_places(model, chosen)
-            off = float(np.max(np.abs(_at(candidate, model.places) - model.corrections)))
+            inside = np.all([np.isin(full.places[:, i], axis) for i, axis in enumerate(chosen)], axis=0)
+            candidate = full.only(inside)
+            off = float(np.max(np.abs(candidate.at(full.places) - full.corrections)))
             if bound is not None and off > bound - self.lost:
                 continue
             # Within a bound fewest places first, without one least deviation first.
-            rank = (float(len(candidate.places)), off) if bound is not None else (off, float(len(candidate.places)))
+            rank = (float(inside.sum()), off) if bound is not None else (off, float(inside.sum()))
             if best is None or rank < best[0]:
                 best = rank, candidate
         if best is None:
             raise CannotCreateError(f"{bound:g} {UNIT} take more than the {TESTS_MAX} tests that a list holds")
         return best[1]
 
-    def removed(self, table: _Model, readings: AccelerationTests) -> Array:
+    def removed(self, table: _Table, readings: AccelerationTests) -> Array:
         """Return the correction with the other sign."""
-        return -table.at(readings)
+        cases, shares = self._cases(readings)
+        return np.asarray(-table.at(readings.places)[np.arange(len(cases)), cases] * shares)
 
-    def compensation(self, table: _Model) -> Crosstalk:
+    def compensation(self, table: _Table) -> Crosstalk:
         """Return the corrections in mm."""
+        places, values = rounded(table.places).tolist(), rounded(table.corrections / shown("mm").factor).tolist()
+        rows = (dict(zip(self.cases, row, strict=True)) for row in values)
         return Crosstalk(
             master=self.master,
             acceleration=self.largest[0],
             deceleration=self.largest[1],
             mode=self.mode,
-            tests=tuple(_test(*rows, self.both) for rows in zip(table.places, table.corrections, strict=True)),
+            tests=tuple(CrosstalkTest(*place, **row) for place, row in zip(places, rows, strict=True)),
             adaptation1=self.adaptation[0],
             adaptation2=self.adaptation[1],
-            velocity_dependent=self.both,
+            velocity_dependent=self.cases == CASES,
         )
 
-    def points(self, table: _Model) -> int:
-        """Return the number of tests."""
-        return len(table.places)
-
-    def draw(self, ax: Axes, table: _Model) -> None:
+    def draw(self, ax: Axes, table: _Table) -> None:
         """Draw what was measured and what is left over the acceleration."""
         tests, left = self.readings, self.left(table, self.readings)
         ax.plot(tests.accelerations, tests.deviations, ".", color="#c4511a", ms=5, label="measured")
@@ -198,42 +215,6 @@ class CrosstalkFit(Fit[AccelerationTests, _Model]):
 
 
 FIT = CrosstalkFit
-
-
-def _test(place: Array, corrections: Array, both: bool) -> CrosstalkTest:
-    used = [i for i in range(4) if both or i % 2 == 0]
-    values = rounded(corrections / shown("mm").factor)
-    return CrosstalkTest(*rounded(place).tolist(), **{CASES[i]: float(values[i]) for i in used})
-
-
-def _cases(tests: AccelerationTests, largest: tuple[float, float]) -> tuple[npt.NDArray[np.int64], Array]:
-    """Return for each test which of ``CASES`` it is, and which share of the correction acts in it."""
-    braking = tests.accelerations < 0.0
-    cases = 2 * braking.astype(np.int64) + (tests.directions < 0)
-    shares = tests.accelerations / np.where(braking, largest[1], largest[0])
-    return cases, np.minimum(shares, 1.0)
-
-
-def _fitted(tests: AccelerationTests, largest: tuple[float, float], both: bool) -> _Model:
-    """Return the corrections that leave least at every place measured."""
-    places, place = np.unique(tests.places, axis=0, return_inverse=True)
-    cases, shares = _cases(tests, largest)
-    if not both:
-        cases = cases - cases % 2
-    weights, sums = np.zeros((2, len(places), 4))
-    np.add.at(weights, (place.ravel(), cases), shares**2)
-    np.add.at(sums, (place.ravel(), cases), -shares * tests.deviations)
-    needed = [i for i in range(4) if both or i % 2 == 0]
-    missing = np.argwhere(weights[:, needed] == 0.0)
-    if len(missing):
-        i, case = missing[0]
-        what = CASES[needed[case]].replace("_", ", ")
-        raise CannotCreateError(f"there is no test ({what} direction) at {places[i, 0]:g}, {places[i, 1]:g}")
-    corrections = np.zeros((len(places), 4))
-    corrections[:, needed] = sums[:, needed] / weights[:, needed]
-    if not both:
-        corrections[:, 1::2] = corrections[:, ::2]
-    return _Model(places, corrections, largest)
 
 
 def _choices(axes: list[Array]) -> Iterator[tuple[Array, ...]]:
@@ -249,18 +230,3 @@ def _choices(axes: list[Array]) -> Iterator[tuple[Array, ...]]:
             continue
         for inner in product(*(combinations(axis[1:-1], n - 2) for axis, n in zip(axes, counts, strict=True))):
             yield tuple(np.array([axis[0], *some, axis[-1]]) for axis, some in zip(axes, inner, strict=True))
-
-
-def _at_places(model: _Model, axes: tuple[Array, ...]) -> _Model:
-    inside = np.all([np.isin(model.places[:, i], axis) for i, axis in enumerate(axes)], axis=0)
-    return _Model(model.places[inside], model.corrections[inside], model.largest)
-
-
-def _at(model: _Model, at: Array) -> Array:
-    """Return corrections (n, 4) at places (n, 2): one place holds everywhere, a line is linear, a grid bilinear."""
-    axes = [np.unique(model.places[:, i]) for i in range(2)]
-    if len(model.places) == len(axes[0]) * len(axes[1]):
-        grid = model.corrections.reshape(len(axes[0]), len(axes[1]), 4)
-        return np.asarray(np.einsum("ni,ijc,nj->nc", hats(axes[0], at[:, 0]), grid, hats(axes[1], at[:, 1])))
-    # Places that fill no grid are never thinned: every test stands at one of them.
-    return model.corrections[[int(np.flatnonzero(np.all(model.places == place, axis=1))[0]) for place in at]]

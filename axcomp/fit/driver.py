@@ -63,18 +63,13 @@ class Options:
     on_top : bool
         The compensation acted during the measurement: what was measured is what it left.
     one_sided : bool
-        Leadscrew: one curve for both directions, the mean.
-    masters : sequence of int
-        Logical numbers of the master or masters (cross, plane; crosstalk: the accelerating axis); 0 or none: as the
-        list says.
-    adaptation : sequence of int
-        Crosstalk: logical numbers of the adaptation axes; 0 or none: as the list says.
-    errors : sequence of str or None
-        Volumetric: the errors that are sought; None: all of the axes in the chain.
-    nodes : int or None
-        Volumetric: values of a component error at most; None: as many as usual.
-    scatter : float or None
-        Volumetric: standard deviation of a reading, µm; None: it comes from the residuals.
+        One curve for both directions, the mean (leadscrew).
+    masters, adaptation : sequence of int
+        Logical numbers of the masters (cross, plane; crosstalk: the accelerating axis) and of the adaptation axes
+        (crosstalk); 0 or none: as the list says.
+    errors, nodes, scatter : sequence of str, int, float or None
+        The errors that are sought, values of one at most, standard deviation of a reading in µm (volumetric); None: all
+        of the chain, as many as usual, as the residuals say.
     """
 
     bound: float | None = None
@@ -105,6 +100,8 @@ class Fit(ABC, Generic[R, T]):
     ----------
     name, meaning, columns, example : str
         The kind, what is made, what a measurement has, and how the command is called.
+    counted : str
+        Field of the compensation with one element an entry.
     into : str
         What the command's ``--into`` names.
     arguments : mapping of str to Option
@@ -134,6 +131,7 @@ class Fit(ABC, Generic[R, T]):
     meaning: ClassVar[str]
     columns: ClassVar[str]
     example: ClassVar[str]
+    counted: ClassVar[str] = "positions"
     into: ClassVar[str] = "list; made if it is not there"
     arguments: ClassVar[Mapping[str, Option]] = {"bound": bound("µm"), "max-points": MAX_POINTS, **NEW_LIST}
     labels: ClassVar[Mapping[str, str]] = {"largest": "largest", "range": "range", "rms": "root mean square"}
@@ -206,9 +204,9 @@ class Fit(ABC, Generic[R, T]):
     def compensation(self, table: T) -> Any:
         """Return what the list is to say."""
 
-    @abstractmethod
     def points(self, table: T) -> int:
         """Return the number of entries."""
+        return int(np.size(getattr(self.compensation(table), self.counted)))
 
     @abstractmethod
     def draw(self, ax: Axes, table: T) -> None:

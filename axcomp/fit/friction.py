@@ -63,6 +63,7 @@ class FrictionFit(Fit[FrictionReadings, tuple[Array, Array]]):
     """
 
     name = "friction"
+    counted = "velocities"
     meaning = "friction table from motor currents at constant velocities"
     columns = "columns velocity (mm/s), current, and run where there are several"
     example = "axcomp create friction --from currents.csv --into achskw1.lis --bound 20"
@@ -111,10 +112,6 @@ class FrictionFit(Fit[FrictionReadings, tuple[Array, Array]]):
         """Return the table divided by the factor."""
         steps = np.round(table[1] / self.scaling / self.resolution)
         return Friction(tuple(table[0].tolist()), tuple((steps * self.resolution).round(9).tolist()), self.scaling)
-
-    def points(self, table: tuple[Array, Array]) -> int:
-        """Return the number of speeds."""
-        return len(table[0])
 
     def report(self, table: tuple[Array, Array]) -> Report:
         """Say what does not count, and what no table can hold, too."""
@@ -166,11 +163,8 @@ def _levels(readings: FrictionReadings) -> tuple[Array, Array]:
     side = (readings.velocities < 0.0).astype(int)
     np.add.at(sums, (side, level), readings.currents * np.sign(readings.velocities))
     np.add.at(counts, (side, level), 1.0)
-    total = np.zeros(count)
-    np.add.at(total, level, speeds)
-    speed = total / counts.sum(axis=0)
+    speed = np.bincount(level, speeds) / counts.sum(axis=0)
     speed = np.round(np.round(speed / _VELOCITY_RESOLUTION) * _VELOCITY_RESOLUTION, 9)
-    means = np.where(counts > 0.0, sums / np.maximum(counts, 1.0), 0.0)
-    current = means.sum(axis=0) / (counts > 0.0).sum(axis=0)
+    current = (sums / np.maximum(counts, 1.0)).sum(axis=0) / (counts > 0.0).sum(axis=0)
     first = np.concatenate(([True], np.diff(speed) > 0.0))
     return speed[first], current[first]

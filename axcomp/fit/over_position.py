@@ -137,10 +137,6 @@ class SidedFit(OverPosition[Sides]):
         up, down = (side.at(readings.targets) for side in table)
         return np.where(readings.directions > 0, up, down)
 
-    def points(self, table: Sides) -> int:
-        """Return the number of positions."""
-        return len(table[0].x)
-
     def report(self, table: Sides) -> Report:
         """Say that a size cannot change at run time, too."""
         changed = self.options.max_points is not None and self.target.exists

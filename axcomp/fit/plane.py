@@ -91,6 +91,7 @@ class PlaneFit(Fit[Flatness, Grid]):
     """
 
     name = "plane"
+    counted = "corrections"
     meaning = "plane table from the deviation of a slave over two masters"
     columns = "columns master1, master2, deviation (mm, µm), and run where there are several"
     example = "axcomp create plane --from table.csv --into achskw3.lis --masters 1 2 --bound 1"
@@ -201,10 +202,6 @@ class PlaneFit(Fit[Flatness, Grid]):
             interval2=float(rounded(np.diff(table.y[:2]))[0]),
             corrections=tuple(tuple(row) for row in corrections.tolist()),
         )
-
-    def points(self, table: Grid) -> int:
-        """Return the number of values."""
-        return len(table.x) * len(table.y)
 
     def draw(self, ax: Axes, table: Grid) -> None:
         """Draw what is left of the means as a map."""

@@ -16,8 +16,7 @@ from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric, is_angle
 from ..plot.style import labelled
 from .creation import CannotCreateError, Report
 from .driver import Fit, Option
-from .volumetric_identification import NODES_MAX, Identification, Identifier
-from .volumetric_model import TcpDeviations
+from .volumetric_identification import NODES_MAX, Identification, Identifier, TcpDeviations
 from .volumetric_target import VolumetricTarget
 
 if TYPE_CHECKING:

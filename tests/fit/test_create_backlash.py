@@ -148,6 +148,11 @@ def test_what_a_single_value_cannot_hold_is_said(new_list, amounts, scatter, not
     assert set(create_backlash(readings, new_list).notes) == notes
 
 
+def test_one_run_says_too_that_the_targets_differ(new_list):
+    readings = measured(TARGETS, {1: ERROR, -1: ERROR + 8.0 + TARGETS / 80.0}, runs=1)
+    assert BETTER in create_backlash(readings, new_list).notes
+
+
 def test_a_bilateral_leadscrew_table_is_pointed_at(lists):
     assert read_machine(lists).machine.axis("X").leadscrew.negative is not None
     creation = create_backlash(with_backlash(8.0), AxisList(lists / "achsmd1.lis"))

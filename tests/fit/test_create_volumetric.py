@@ -15,7 +15,7 @@ from test_volumetric_identification import PLAIN, X, Y, Z, over, places_of, simu
 from axcomp.cli import main
 from axcomp.engine.tcp_model import TcpModel
 from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, Options, create
-from axcomp.fit.volumetric_model import TcpDeviations
+from axcomp.fit.volumetric_identification import TcpDeviations
 from axcomp.fit.volumetric_target import VolumetricTarget
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at

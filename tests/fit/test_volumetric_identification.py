@@ -8,8 +8,7 @@ import pytest
 from axcomp.engine.tcp_model import TcpModel
 from axcomp.fit import CannotCreateError
 from axcomp.fit.volumetric_basis import Sought, sought_errors
-from axcomp.fit.volumetric_identification import Identifier
-from axcomp.fit.volumetric_model import TcpDeviations
+from axcomp.fit.volumetric_identification import Identifier, TcpDeviations
 from axcomp.measurement.columns import MeasurementError
 from axcomp.model.volumetric import ErrorTable, Volumetric, is_angle
 
