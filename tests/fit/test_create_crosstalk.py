@@ -87,7 +87,7 @@ def test_a_grid_of_places_is_thinned_to_the_tests_a_list_holds(new_list):
     places = grid(np.linspace(-400, 400, 7), np.linspace(-400, 0, 5))
     tests = acceleration_tests(places, lambda x, z, a, _: a * 0.005 * (1 + (x / 500) ** 2 + (z / 900) ** 2), runs=2)
     creation = create_crosstalk(tests, new_list, OPTIONS)
-    assert creation.points <= 15
+    assert creation.points <= 14
     assert creation.figures[PREDICTED]["largest"] == pytest.approx(creation.deviation, abs=0.06)
     assert creation.figures[PREDICTED]["largest"] < 1.0
     assert LEFT_OUT in creation.figures
