@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, recognized, shown_unit, written
+from ..convert.formats import FORMATS, LISTS, Compared, compared, recognized, written
 from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
-from ..convert.table import CannotHoldError, CompensationTable, FormatError
+from ..convert.table import CompensationTable
+from ..convert.text import MAX_POINTS, CannotHoldError, FormatError, Options
 from ..kinds import KINDS
 from ..lists import Severity, machine_documents, read_machine, write_machine
 from ..lists.grammar import decode
@@ -56,7 +57,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--within", type=float, metavar="µm", help="choose other points; they may cost this much (rotary: ″)"
     )
-    parser.add_argument("--max-points", type=int, metavar="N", help="points the other control reserves for a table")
+    parser.add_argument(
+        "--max-points", type=int, default=MAX_POINTS, metavar="N", help="points the other control reserves for a table"
+    )
     parser.add_argument("--encoder", type=int, choices=(0, 1), default=0, help="measuring system of ENC_COMP (0)")
     parser.add_argument("--from-inch", action="store_true", help="the file is in inches (SINUMERIK, LinuxCNC)")
     parser.add_argument("--to-inch", action="store_true", help="write inches (SINUMERIK, LinuxCNC)")
@@ -97,16 +100,16 @@ def _do_convert(args: argparse.Namespace) -> int:
 def _options(args: argparse.Namespace) -> Options:
     if args.within is not None and not args.within >= 0.0:
         raise CannotHoldError("--within must be 0 µm or more")
-    if args.max_points is not None and args.max_points < 2:
+    if args.max_points < 2:
         raise CannotHoldError("--max-points must be 2 or more")
-    options = Options(
+    return Options(
         axis=args.axis,
         over=args.over,
         rotary=frozenset(name for name in args.rotary.split(",") if name),
         encoder=args.encoder,
+        max_points=args.max_points,
         within=args.within,
     )
-    return options if args.max_points is None else replace(options, max_points=args.max_points)
 
 
 def _read(args: argparse.Namespace) -> tuple[list[CompensationTable], list[str]]:
@@ -158,7 +161,7 @@ def _sentence(one: Compared) -> str:
     points = f"{len(one.before.positions)} points, written {len(one.after.positions)}"
     motion = "positive" if direction > 0 else "negative"
     where = f" at {position:g} {one.before.over_unit} in {motion} motion" if size else ""
-    return f"{one.before.name}: {points}; largest difference {size:.4f} {shown_unit(one.before)}{where}"
+    return f"{one.before.name}: {points}; largest difference {size:.4f} {one.before.shown.unit}{where}"
 
 
 def _figures(one: Compared) -> dict[str, object]:
@@ -169,7 +172,7 @@ def _figures(one: Compared) -> dict[str, object]:
         "points": len(one.before.positions),
         "written_points": len(one.after.positions),
         "largest_difference": one.difference.size,
-        "unit": shown_unit(one.before),
+        "unit": one.before.shown.unit,
         "at": one.difference.position,
         "direction": one.difference.direction,
     }

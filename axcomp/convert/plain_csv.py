@@ -15,14 +15,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from io import StringIO
 
-from .numbers import decimal, number, shortened
-from .table import CompensationTable, FormatError, Unit
+from .table import CompensationTable
+from .text import DEFAULTS, FormatError, Options, Unit, decimal, number, shortened
 
 COLUMNS = ("axis", "unit", "over", "over_unit", "period", "position", "correction_positive", "correction_negative")
 _SIGNS = {"correction": 1.0, "error": -1.0}
 _KNOWN = {*COLUMNS, *(f"{name}{side}" for name in _SIGNS for side in ("", "_positive", "_negative"))}
 _UNITS: dict[str, Unit] = {"": "mm", "mm": "mm", "deg": "deg", "°": "deg"}
-_FIELD_MAX = 1000
+_LINE_MAX = 1000
 
 
 @dataclass
@@ -36,21 +36,8 @@ class _Written:
     negative: list[float] = field(default_factory=list)
 
 
-def read_csv(text: str, *, axis: str = "") -> list[CompensationTable]:
-    """Return the tables of a file in the order they begin.
-
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    axis : str
-        Name of the axis where the file has no such column.
-
-    Raises
-    ------
-    FormatError
-        If the file is not of this format, with the line.
-    """
+def read_csv(text: str, options: Options = DEFAULTS) -> list[CompensationTable]:
+    """Return the tables of a file in the order they begin; of ``options.axis`` where no column names the axis."""
     rows = list(_rows(text))
     if not rows:
         raise FormatError(0, "the file has no line that names the columns")
@@ -68,7 +55,7 @@ def read_csv(text: str, *, axis: str = "") -> list[CompensationTable]:
     for line, cells in rows[1:]:
         if len(cells) != len(names):
             raise FormatError(line, f"{len(cells)} cells stand under {len(names)} columns")
-        _take(dict(zip(names, cells, strict=True)), line, axis, values, tables)
+        _take(dict(zip(names, cells, strict=True)), line, options.axis or "", values, tables)
     if not tables:
         raise FormatError(0, "the file has no points")
     return [_table(key, written) for key, written in tables.items()]
@@ -82,7 +69,7 @@ def _rows(text: str) -> Iterable[tuple[int, list[str]]]:
         if not line.strip() or line.startswith("#"):
             continue
         try:
-            cells = next(csv.reader([line[:_FIELD_MAX]], delimiter=separator, strict=True))
+            cells = next(csv.reader([line[:_LINE_MAX]], delimiter=separator, strict=True))
         except csv.Error as error:
             raise FormatError(number_, f"{error}") from None
         if separator != ",":
@@ -144,24 +131,16 @@ def _table(key: tuple[str, str], written: _Written) -> CompensationTable:
     over = own if key[0] == key[1] and not over_unit else _UNITS[over_unit]
     if key[0] == key[1] and own != over:
         raise FormatError(written.line, f"axis {key[0]} cannot be in mm and deg at once")
+    repeats = number(period, written.line, "period") if period else None
     try:
-        return CompensationTable.of(
-            *key,
-            written.positions,
-            written.positive,
-            written.negative,
-            number(period, written.line, "period") if period else None,
-            own,
-            over,
-        )
+        return CompensationTable.of(*key, written.positions, written.positive, written.negative, repeats, own, over)
     except ValueError as error:
-        if isinstance(error, FormatError):
-            raise
         raise FormatError(written.line, str(error)) from None
 
 
-def write_csv(tables: Sequence[CompensationTable]) -> str:
+def write_csv(tables: Sequence[CompensationTable], options: Options = DEFAULTS) -> str:
     """Return the file of any tables."""
+    options.check_metric()
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)

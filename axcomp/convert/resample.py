@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..model.curve import Curve
-from .table import CannotHoldError, CompensationTable
+from .table import CompensationTable
+from .text import CannotHoldError
 
 ON_GRID = 1e-4
-"""How far a point may lie off its place and still count as equidistant, mm or °: what the lists resolve."""
+"""How far a point may lie off its position and still count as equidistant, mm or °: what the lists resolve."""
 EXACT = 1e-9
 """Differences up to this, in mm or °, come from the arithmetic alone."""
 
@@ -18,14 +19,7 @@ EXACT = 1e-9
 def on_equidistant_points(table: CompensationTable, max_points: int, within: float | None) -> CompensationTable:
     """Return the table on exactly equidistant points; a table that repeats ends one period after it begins.
 
-    Parameters
-    ----------
-    table : CompensationTable
-        Any.
-    max_points : int
-        The most the other controller takes.
-    within : float or None
-        How many µm (″) another choice of points may change the corrections; None: the points stay as they are.
+    ``within``: how many µm (″) another choice of points may change the corrections; None: the points stay as they are.
 
     Raises
     ------
@@ -42,13 +36,14 @@ def on_equidistant_points(table: CompensationTable, max_points: int, within: flo
         if len(x) > max_points:
             raise CannotHoldError(f"{table.name} has {len(x)} points; there is room for {max_points}")
         return full.mapped(lambda curve: replace(curve, x=tuple(even.tolist())))
-    gaps, unit = np.diff(x), table.positive.of.scaled().unit
+    factor, unit = table.shown
     if within is None:
+        gaps = np.diff(x)
         raise CannotHoldError(
             f"the points of {table.name} are {gaps.min():g} to {gaps.max():g} {table.over_unit} apart, but must be "
             f"equidistant: say how many {unit} other points may cost (--within)"
         )
-    factor, least = table.positive.of.factor, np.inf
+    least = np.inf
     for count in range(2, max_points + 1):
         points = np.linspace(x[0], x[-1], count)
         off = max(_off(curve, points) for curve in (full.positive, full.negative) if curve is not None)

@@ -8,28 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from ..model.curve import Curve
-from ..model.quantity import Quantity, symbol
+from ..model.quantity import Quantity, Shown, shown, symbol
+from .text import CannotHoldError, Unit
 
-Unit: TypeAlias = Literal["mm", "deg"]
 _UNITS: dict[str, Unit] = {"mm": "mm", "°": "deg"}
-
-MM_PER_INCH = 25.4
-
-
-class FormatError(ValueError):
-    """A file that is not of its format, with the line that shows it (counted from 1; 0: the file as a whole)."""
-
-    def __init__(self, line: int, message: str) -> None:
-        self.line = line
-        self.message = message
-        super().__init__(f"line {line}: {message}" if line else message)
-
-
-class CannotHoldError(ValueError):
-    """A table that the other format has no room for: the message says which one and what is missing."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -116,6 +101,11 @@ class CompensationTable:
         """``mm`` or ``deg``: of the positions."""
         return _UNITS[self.positive.over.unit]
 
+    @property
+    def shown(self) -> Shown:
+        """Unit in which differences of its corrections are shown, µm or ″, with its factor."""
+        return shown(self.positive.of.unit)
+
     def __repr__(self) -> str:
         sides = "unilateral" if self.negative is None else "bilateral"
         span = f"{self.positions[0]:g} … {self.positions[-1]:g}"
@@ -166,4 +156,4 @@ def largest_difference(one: CompensationTable, other: CompensationTable) -> Diff
     """Compare two tables in both directions."""
     gaps = [(one.curve(direction).largest_gap(other.curve(direction)), direction) for direction in (1, -1)]
     (size, position), direction = max(gaps, key=lambda gap: gap[0].size)
-    return Difference(one.positive.of.factor * size, position, direction)
+    return Difference(one.shown.factor * size, position, direction)
