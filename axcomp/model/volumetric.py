@@ -110,6 +110,11 @@ class ErrorTable:
     nodes: tuple[tuple[float, ...], ...] = ((),)
     interpolation: Interpolation = Interpolation.GRID
 
+    def positions(self, letter: str) -> list[float]:
+        """Return the positions of one of the arguments' axes, node by node."""
+        column = self.arguments.index(letter)
+        return [node[column] for node in self.nodes]
+
     def __repr__(self) -> str:
         if not self.arguments:
             return f"ErrorTable({self.name} = {self.values[0]:g})"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from ..model.quantity import Quantity
-from .content import Content, NotComparableError, Records, Subject, span, spread
+from .content import Content, Records, span
 from .style import DOWN, UP, labelled, new_figure, printed
 
 if TYPE_CHECKING:
@@ -20,25 +20,19 @@ ROWS_OF_PICTURE = 14
 
 
 @dataclass(frozen=True, eq=False)
-class Bars:
+class Bars(Content):
     """Values under names.
 
     Attributes
     ----------
-    subject : Subject
-        What they are of.
     quantity : Quantity
         Of the values.
     values : mapping of str to float
         In the order they are shown.
-    note : str
-        Added to the title.
     """
 
-    subject: Subject
     quantity: Quantity
     values: Mapping[str, float]
-    note: str = ""
 
     def figure(self) -> Figure:
         """Return a bar for each value."""
@@ -50,11 +44,6 @@ class Bars:
         """Return names and values."""
         return Records(("error", str(self.quantity)), list(self.values.items()))
 
-    def extract(self, rows: int) -> Records:
-        """Return evenly spread rows."""
-        everything = self.records()
-        return Records(everything.columns, [everything.rows[row] for row in spread(len(everything.rows), rows)])
-
     def summary(self) -> tuple[str, str, str]:
         """Return how many there are, their names, and their range."""
         values = [round(value, 4) for value in self.values.values()]
@@ -63,10 +52,10 @@ class Bars:
     def against(self, other: Content) -> Bars:
         """Return other − this one; what one of them lacks is 0."""
         if not isinstance(other, Bars) or self.quantity != other.quantity:
-            raise NotComparableError(f"{self.subject.title}: the two tables are of different quantities")
+            self.not_comparable("the two tables are of different quantities")
         names = dict.fromkeys((*self.values, *other.values))
         values = {name: other.values.get(name, 0.0) - self.values.get(name, 0.0) for name in names}
-        return Bars(self.subject, self.quantity.changed(), values, "other − this one")
+        return Bars(self.subject, self.quantity.changed(), values, note="other − this one")
 
 
 def plot_bars(ax: Axes, bars: Bars) -> Axes:
@@ -78,5 +67,4 @@ def plot_bars(ax: Axes, bars: Bars) -> Axes:
     ax.invert_yaxis()
     ax.set_axisbelow(True)
     ax.margins(x=0.15)
-    title = f"{bars.subject.title} ({bars.note})" if bars.note else bars.subject.title
-    return labelled(ax, title, str(bars.quantity), "")
+    return labelled(ax, bars.title, str(bars.quantity), "")

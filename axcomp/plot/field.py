@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from .content import Content, NotComparableError, Records, Subject, span, spread
+from .content import Content, Records, span
 from .curves import Array
 from .style import new_figure, printed, sequential
 
@@ -26,25 +26,19 @@ FLATTEST = 0.35
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class Field(Content):
     """Vectors at places in space.
 
     Attributes
     ----------
-    subject : Subject
-        What they are of.
     places : ndarray, shape (n, 3)
         X, Y and Z in mm.
     vectors : ndarray, shape (n, 3)
         In µm.
-    note : str
-        Added to the title.
     """
 
-    subject: Subject
     places: Array
     vectors: Array
-    note: str = ""
 
     def sizes(self) -> Array:
         """Return the lengths of the vectors, shape (n,), µm."""
@@ -66,27 +60,19 @@ class Field:
         """Return place, vector and its size, a row for each place."""
         columns = ("X [mm]", "Y [mm]", "Z [mm]", "eX [µm]", "eY [µm]", "eZ [µm]", "size [µm]")
         table = np.column_stack([self.places, self.vectors, self.sizes()])
-        return Records(columns, [tuple(row) for row in table.tolist()])
-
-    def extract(self, rows: int) -> Records:
-        """Return evenly spread rows."""
-        everything = self.records()
-        return Records(everything.columns, [everything.rows[row] for row in spread(len(everything.rows), rows)])
+        return Records(columns, table.tolist())
 
     def summary(self) -> tuple[str, str, str]:
         """Return the number of places, their ranges, and that of the sizes."""
+        count = f"{len(self.places)} place{'s'[: len(self.places) - 1]}"
         ranges = "; ".join(span(side.tolist(), "mm") for side in self.places.T)
-        return (
-            f"{len(self.places)} place{'s'[: len(self.places) - 1]}",
-            ranges,
-            span(np.round(self.sizes(), 4).tolist(), "µm"),
-        )
+        return count, ranges, span(np.round(self.sizes(), 4).tolist(), "µm")
 
     def against(self, other: Content) -> Field:
         """Return other − this one; both must be at the same places."""
         if not isinstance(other, Field) or not np.array_equal(self.places, other.places):
-            raise NotComparableError(f"{self.subject.title}: the two machines have different work volumes")
-        return Field(self.subject, self.places, other.vectors - self.vectors, "other − this one")
+            self.not_comparable("the two machines have different work volumes")
+        return Field(self.subject, self.places, other.vectors - self.vectors, note="other − this one")
 
 
 def plot_field(ax: Axes3D, field: Field) -> Axes3D:
@@ -108,9 +94,8 @@ def plot_field(ax: Axes3D, field: Field) -> Axes3D:
     for name, label in zip("XYZ", (ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), strict=True):
         label(f"{name} [mm]", fontsize=11, labelpad=8)
     ax.view_init(elev=22.0, azim=-60.0)
-    note = f" ({field.note})" if field.note else ""
     size = f"up to {largest:.1f} µm, drawn {scale * 1e3:,.0f} times as large" if largest else "none at these places"
-    ax.set_title(printed(f"{field.subject.title}{note}: {size}"), fontsize=12)
+    ax.set_title(printed(f"{field.title}: {size}"), fontsize=12)
     ax.figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
     return ax
 
