@@ -11,6 +11,7 @@ from ...engine.motion import Array
 from ...model.quantity import shown, symbol
 from ...plot.style import DOWN, UP, labelled, new_figure
 from .dynamics import DynamicsResult
+from .positions import sentence
 from .sign import WITHOUT, WRITTEN, SignResult
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def plot_sign(result: SignResult, ax: Axes | None = None) -> Axes:
     ax.legend(ncols=2, fontsize=10)
     position = symbol(result.evaluations[WITHOUT].position_unit)
     figures = f"{result.symbol} {result.error(WITHOUT):.1f} → {result.error(WRITTEN):.1f} {unit}"
-    title = f"{result.name[0].upper()}{result.name[1:]}: {figures}"
+    title = f"{sentence(result.name)}: {figures}"
     return labelled(ax, title, f"target position [{position}]", f"deviation, actual − target [{unit}]")
 
 
@@ -42,8 +43,7 @@ def plot_dynamics(result: DynamicsResult, ax: Axes | None = None) -> Axes:
     unit, over = symbol(result.axis.unit), symbol(result.over.unit)
     small = shown(result.axis.unit)
     if len(result.slopes):
-        edges = [*result.intervals[:, 0], result.intervals[-1, 1]]
-        ax.stairs(small.factor * result.slopes, edges, color=UP, lw=1.5, baseline=None)
+        ax.stairs(small.factor * result.slopes, result.x, color=UP, lw=1.5, baseline=None)
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
     if result.feed:
         factor = result.feed / small.factor
@@ -58,5 +58,5 @@ def plot_dynamics(result: DynamicsResult, ax: Axes | None = None) -> Axes:
         second.set_ylabel(f"added velocity at {result.feed:g} {over}/s [{unit}/s]", fontsize=11)
     ax.set_axisbelow(True)
     label = f"slope [{small.unit}/{over}]"
-    title = f"{result.name[0].upper()}{result.name[1:]}: slope"
+    title = f"{sentence(result.name)}: slope"
     return labelled(ax, title, f"position of {result.over.name} [{over}]", label)
