@@ -7,9 +7,7 @@ import json
 import sys
 from pathlib import Path
 
-import numpy as np
-
-from ..analysis.budget.contributions import POINTS, Budget, budget_of
+from ..analysis.budget.contributions import POINTS, Budget, budget_of, largest, rms
 from ..analysis.budget.propagation import COVERAGE, PLACES, TRIALS, TcpUncertainty, tcp_uncertainty
 from ..analysis.budget.uncertainty import read_uncertainties
 from ..engine.trajectory import read_input
@@ -120,17 +118,16 @@ def _print(budget: Budget, uncertainty: TcpUncertainty | None, rows: int) -> Non
         if len(every) > len(listed):
             rest = sum(c.at(worst) for c in every[len(listed) :])
             lines.append([f"{len(every) - len(listed)} others", "", "", figure(rest, 3)])
-        rms = float(np.sqrt(np.mean(total**2)))
-        lines.append(["all, by the engine", *(figure(v, 3) for v in (np.max(np.abs(total)), rms, total[worst]))])
+        lines.append(["all, by the engine", *(figure(v, 3) for v in (largest(total), rms(total), total[worst]))])
         head = ["contribution", "largest", "rms", f"at {budget.time[worst]:.3f} s"]
         out.print(table(f"Axis {axis}: corrections in {budget.units[axis]}", head, lines))
         unit = budget.units[axis]
-        if axis in budget.volumetric_sum:
+        if axis in budget.joint:
             joint = f"{budget.gap_to_joint(axis):.2g} {unit}"
             out.print(f"Volumetric errors, sum of each alone − all together: at most {joint}")
         out.print(f"Sum of all contributions − engine: at most {budget.gap_to_engine(axis):.2g} {unit}\n")
     if budget.currents:
-        lines = [[axis, figure(largest, 3), figure(rms, 3)] for axis, (largest, rms) in budget.currents.items()]
+        lines = [[axis, figure(largest(one), 3), figure(rms(one), 3)] for axis, one in budget.currents.items()]
         out.print(table("Friction: currents in the drive's own unit", ["axis", "largest", "rms"], lines))
     if uncertainty is not None:
         _print_uncertainty(uncertainty)

@@ -87,14 +87,17 @@ class TcpModel:
                 row[:] = correction
         return found
 
-    def derivatives(self, places: Array, tool_lengths: Array, errors: Array, which: Sequence[int]) -> Array:
-        """Return what each of some errors does to the tool tip, (n, 3, errors), mm per mm or rad."""
+    def derivatives(
+        self, places: Array, tool_lengths: Array, errors: Array, which: Sequence[int], *, corrections: bool = False
+    ) -> Array:
+        """Return what each of some errors does to the tool tip or the corrections, (n, 3, errors), mm per mm or rad."""
+        effects = self.corrections if corrections else self.deviations
         found = np.empty((len(places), len(LINEAR), len(which)))
         for column, error in enumerate(which):
             sides = []
             for step in (_STEP, -_STEP):
                 changed = errors.copy()
                 changed[:, error] += step
-                sides.append(self.deviations(places, tool_lengths, changed))
+                sides.append(effects(places, tool_lengths, changed))
             found[:, :, column] = (sides[0] - sides[1]) / (2.0 * _STEP)
         return found

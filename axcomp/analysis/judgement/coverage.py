@@ -79,7 +79,7 @@ def judge_coverage(
 ) -> list[Coverage]:
     """Note where a file leaves the tables, and return what it uses of every table whose quantities it moves.
 
-    ``trajectory``: ``X.setpoint`` and the like, (rows,), mm, ° or mm/s²: ``engine.trajectory.read_input(path).columns``.
+    ``trajectory``: ``X.setpoint`` and so on, (rows,), mm, ° or mm/s², as ``engine.trajectory.read_input`` gives it.
 
     Raises
     ------
