@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..analysis.budget.contributions import Budget, budget_of
-from ..analysis.judgement import Demand, Judgement, judge
-from ..analysis.judgement.dynamics import CYCLE_TIME
+from ..analysis.judgement import Evidence, Judgement
 from ..bench.clock import Sample
 from ..bench.engine import bench_engine
-from ..engine.trajectory import InputFile
 from ..lists import Finding, Reading, Severity
 from ..measurement.iso230 import Iso230Result, evaluate
-from ..measurement.positioning import Positioning
-from ..model.machine import Machine
+from ..model.machine import CYCLE_TIME, Machine
 from ..plot.content import Content
 from ..plot.contents import contents_of
-from ..plot.volume import volumetric_contents
 
 REPEATS = 3
 """Of the measurement of what a cycle costs."""
@@ -31,12 +26,8 @@ class Report:
 
     Attributes
     ----------
-    path : str
+    reading : Reading
         Of its lists.
-    machine : Machine
-        As they describe it.
-    findings : tuple of Finding
-        Of the reader, then of the judgement.
     judgement : Judgement
         With the figures behind its findings.
     contents : tuple of Content
@@ -51,15 +42,23 @@ class Report:
         What could not be done, a sentence each.
     """
 
-    path: str
-    machine: Machine
-    findings: tuple[Finding, ...]
+    reading: Reading
     judgement: Judgement
     contents: tuple[Content, ...] = ()
     evaluations: tuple[Iso230Result, ...] = ()
     budget: Budget | None = None
     costs: tuple[Sample, ...] = ()
     notes: tuple[str, ...] = ()
+
+    @property
+    def machine(self) -> Machine:
+        """As the lists describe it."""
+        return self.reading.machine
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Of the reader, then of the judgement."""
+        return (*self.reading.findings, *self.judgement.findings)
 
     def counts(self) -> dict[str, int]:
         """Return the number of findings by severity."""
@@ -74,7 +73,7 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Return all figures for JSON."""
         return {
-            "path": self.path,
+            "path": str(self.reading.path),
             "counts": self.counts(),
             "findings": [
                 {"severity": f.severity.value, "file": f.file, "line": f.line, "code": f.code, "message": f.message}
@@ -93,16 +92,7 @@ class Report:
 
 
 def make_report(
-    reading: Reading,
-    *,
-    readings: Sequence[Positioning] = (),
-    measurements: Sequence[tuple[Positioning, str, str]] = (),
-    demand: Demand | None = None,
-    given: InputFile | None = None,
-    tool_length: float = 0.0,
-    cycle_time: float = CYCLE_TIME,
-    repeats: int = REPEATS,
-    notes: Sequence[str] = (),
+    reading: Reading, evidence: Evidence | None = None, *, cycle_time: float = CYCLE_TIME, repeats: int = REPEATS
 ) -> Report:
     """Judge, evaluate and measure.
 
@@ -110,51 +100,34 @@ def make_report(
     ----------
     reading : Reading
         Of the machine.
-    readings : sequence of Positioning
-        To be evaluated by ISO 230-2.
-    measurements : sequence of (Positioning, str, str)
-        Those that tables are judged by, as ``judge`` takes them.
-    demand, tool_length
-        As ``judge`` takes them.
-    given : InputFile or None
-        For coverage and budget; None: neither is in the report.
+    evidence : Evidence or None
+        Measurements are evaluated, an input file has coverage and budget; None: there is none.
     cycle_time : float
         Of the position controller, s.
     repeats : int
         Of the measurement of costs; 0: they are not in the report.
-    notes : sequence of str
-        What could not be done so far.
 
     Raises
     ------
     ValueError
         A measurement or an input file does not belong to the machine.
     """
-    machine = reading.machine
-    judgement = judge(
-        machine,
-        reading,
-        measurements=measurements,
-        demand=demand,
-        trajectory=None if given is None else given.columns,
-        tool_length=tool_length,
-    )
-    said = list(notes)
+    machine, given = reading.machine, evidence or Evidence()
+    judgement = given.judge(reading)
+    notes = list(given.faults)
     budget = None
-    if given is not None:
+    if given.input is not None:
         try:
-            budget = budget_of(machine, given, cycle_time=cycle_time, tool_length=tool_length or None)
+            budget = budget_of(machine, given.input, cycle_time=cycle_time, tool_length=given.tool_length or None)
         except (KeyError, ValueError) as error:
-            said.append(f"There is no budget: {error.args[0] if error.args else error}.")
+            notes.append(f"There is no budget: {error.args[0] if error.args else error}.")
     return Report(
-        str(reading.path),
-        machine,
-        (*reading.findings, *judgement.findings),
+        reading,
         judgement,
-        (*contents_of(machine), *volumetric_contents(machine, tool_length=tool_length)),
-        tuple(evaluate(measured) for measured in readings),
+        tuple(contents_of(machine, tool_length=given.tool_length)),
+        tuple(evaluate(measured) for measured in given.readings),
         budget,
         # No goal is set for a machine at large.
         tuple(bench_engine(machine, "this machine", repeats, math.inf)) if repeats > 0 and machine.axes else (),
-        tuple(said),
+        tuple(notes),
     )

@@ -9,7 +9,7 @@ from ...lists.catalogue import parameter
 
 def sentence(text: str) -> str:
     """Return a text with a capital at its beginning."""
-    return f"{text[0].upper()}{text[1:]}"
+    return f"{text[:1].upper()}{text[1:]}"
 
 
 class Positions:
