@@ -86,8 +86,6 @@ class Poses:
 
     Attributes
     ----------
-    volumetric : Volumetric
-    model : TcpModel
     names : tuple of str
         Names of its X, Y and Z.
     poses : array, shape (n, 6)

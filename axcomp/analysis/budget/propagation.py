@@ -88,20 +88,10 @@ class TcpUncertainty:
 def tcp_uncertainty(
     budget: Budget, uncertainties: Sequence[Uncertainty], *, trials: int = TRIALS, places: int = PLACES, seed: int = 1
 ) -> TcpUncertainty:
-    """Carry uncertainties to the tool tip.
+    """Carry uncertainties, independent of each other, to the tool tip along the path of a budget.
 
-    Parameters
-    ----------
-    budget : Budget
-        Of the path.
-    uncertainties : sequence of Uncertainty
-        Independent of each other.
-    trials : int
-        At least 2.
-    places : int
-        How many of the budget's points, evenly spread.
-    seed : int
-        The same seed gives the same result.
+    ``trials`` are at least 2, ``places`` are so many of the budget's points, evenly spread. The same ``seed`` gives the
+    same result.
     """
     if trials < 2 or places < 1:
         raise ValueError("there must be at least 2 trials and 1 place")

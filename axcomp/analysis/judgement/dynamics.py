@@ -57,16 +57,7 @@ class Demand:
 
 @dataclass(frozen=True)
 class Ramp:
-    """A correction that comes or goes over some cycles by sin².
-
-    Attributes
-    ----------
-    size : float
-        mm or °.
-    cycles : int
-    cycle_time : float
-        s.
-    """
+    """A correction of some mm or ° that comes or goes over some cycles (of ``cycle_time`` s) by sin²."""
 
     size: float
     cycles: int
@@ -179,9 +170,22 @@ class DynamicsResult:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the slope over the position, with the velocity it adds; return the axes."""
-        from .plots import plot_dynamics
+        from ...plot.style import UP, labelled, new_figure
 
-        return plot_dynamics(self, ax)
+        ax = new_figure().add_subplot() if ax is None else ax
+        unit, over = symbol(self.axis.unit), symbol(self.over.unit)
+        small = shown(self.axis.unit)
+        if len(self.slopes):
+            ax.stairs(small.factor * self.slopes, self.x, color=UP, lw=1.5, baseline=None)
+        ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+        if self.feed:
+            factor = self.feed / small.factor
+            scales = (lambda slope: np.asarray(slope) * factor, lambda velocity: np.asarray(velocity) / factor)
+            second = ax.secondary_yaxis("right", functions=scales)
+            second.set_ylabel(f"added velocity at {self.feed:g} {over}/s [{unit}/s]", fontsize=11)
+        ax.set_axisbelow(True)
+        x, y = f"position of {self.over.name} [{over}]", f"slope [{small.unit}/{over}]"
+        return labelled(ax, f"{sentence(self.name)}: slope", x, y)
 
 
 def rate(value: float) -> str:

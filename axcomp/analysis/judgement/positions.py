@@ -13,13 +13,7 @@ def sentence(text: str) -> str:
 
 
 class Positions:
-    """Finds entries of a machine's lists.
-
-    Parameters
-    ----------
-    reading : Reading or None
-        None: the machine does not come from lists, and every position has file "".
-    """
+    """Finds entries of a machine's lists; without a reading every position has file ""."""
 
     def __init__(self, reading: Reading | None) -> None:
         self._reading = reading

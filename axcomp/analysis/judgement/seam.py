@@ -49,15 +49,7 @@ class Seam(NamedTuple):
 
 
 def seam_of(curve: Curve, modulo: ModuloRange | None) -> Seam | None:
-    """Return the seam of what a table adds, None if the position it is looked up at does not begin again.
-
-    Parameters
-    ----------
-    curve : Curve
-        The table.
-    modulo : ModuloRange or None
-        Of the axis whose position it is looked up at.
-    """
+    """Return the seam of what a table adds, None if its position does not begin again; ``modulo``: of that axis."""
     added = curve.added()
     if curve.period is not None:
         gap = curve.period - curve.span
