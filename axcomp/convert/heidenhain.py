@@ -23,7 +23,7 @@ and 1.6.4, pages 4-26 to 4-31 and 4.7.3; the header lines from files that public
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from .resample import on_equidistant_points
 from .table import CompensationTable, beginning_at
@@ -62,8 +62,11 @@ class _Sheet:
             raise FormatError(0, "the file ends behind BEGIN")
         self.labels = [(found.start(), found[0].upper()) for found in _WORD.finditer(self.lines[1])]
         self._check_labels()
-        for line, row in self._rows():
-            self._take(line, row)
+        for line, row in enumerate(self.lines[2:], 3):
+            if row.strip().upper() in {"[END]", "END"}:
+                break
+            if row.strip():
+                self._take(line, row)
         if not self.numbers:
             raise FormatError(0, "the file has no points")
         self.columns = {label: cells for label, cells in self.columns.items() if cells}
@@ -81,14 +84,8 @@ class _Sheet:
             self.labels.insert(1, (self.labels[0][0] + 2, _POSITION))
         self.columns = {label: [] for _, label in self.labels[1:]}
 
-    def _rows(self) -> Iterator[tuple[int, str]]:
-        for line, row in enumerate(self.lines[2:], 3):
-            if row.strip().upper() in {"[END]", "END"}:
-                return
-            if row.strip():
-                yield line, row
-
     def _take(self, line: int, row: str) -> None:
+        before = len(self.numbers)
         self.numbers.append(line)
         filled = set()
         for found in _WORD.finditer(row):
@@ -99,11 +96,9 @@ class _Sheet:
             filled.add(label)
             value = number(found[0], line, label)
             if label == "NR":
-                if value != len(self.numbers) - 1:
-                    raise FormatError(
-                        line, f"line number {len(self.numbers) - 1} expected, found {shortened(found[0])}"
-                    )
-            elif len(self.columns[label]) < len(self.numbers) - 1:
+                if value != before:
+                    raise FormatError(line, f"line number {before} expected, found {shortened(found[0])}")
+            elif len(self.columns[label]) < before:
                 raise FormatError(line, f"column {label} has a value here but not in the first line")
             else:
                 self.columns[label].append(value)
@@ -180,12 +175,10 @@ def write_heidenhain(tables: Sequence[CompensationTable], options: Options = DEF
         raise CannotHoldError(f"a .COM file holds one bilateral table; there are {len(tables)} over {tables[0].over}")
     labels = ["AXISPOS", "BACKLASH", *(table.axis for table in tables)]
     lines = [f"BEGIN AXIS_{tables[0].over}.COM MM", _row("NR", labels)]
-    columns = [table.positive.on(positions).y for table in tables]
-    backlash = None if tables[0].negative is None else tables[0].negative.on(positions).y
-    for index, position in enumerate(positions):
-        reverse = "" if backlash is None else _signed(-backlash[index])
-        cells = [_signed(position), reverse, *(_signed(-column[index]) for column in columns)]
-        lines.append(_row(str(index), cells))
+    columns = [[_signed(position) for position in positions]]
+    for curve in (tables[0].negative, *(table.positive for table in tables)):
+        columns.append([""] * len(positions) if curve is None else [_signed(-y) for y in curve.on(positions).y])
+    lines += [_row(str(index), cells) for index, cells in enumerate(zip(*columns, strict=True))]
     return "\n".join([*lines, "[END]"]) + "\n"
 
 

@@ -58,18 +58,9 @@ class CompensationTable:
             Points or values are not what a ``Curve`` takes.
         """
         sides = [positive] if negative is None or tuple(negative) == tuple(positive) else [positive, negative]
-        curves = (
-            Curve(
-                tuple(positions),
-                tuple(side),
-                Quantity("position", symbol(over_unit), over),
-                Quantity("correction", symbol(unit), axis),
-                period,
-                name_of(axis, over),
-            )
-            for side in sides
-        )
-        return cls(axis, over, *curves)
+        quantities = Quantity("position", symbol(over_unit), over), Quantity("correction", symbol(unit), axis)
+        name = name_of(axis, over)
+        return cls(axis, over, *(Curve(tuple(positions), tuple(side), *quantities, period, name) for side in sides))
 
     @property
     def kind(self) -> str:

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
 from ..model.quantity import Quantity
 from .content import Content, Records, span
 from .style import DOWN, UP, labelled, new_figure, printed
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 ROWS_OF_PICTURE = 14
 """Bars that an ordinary picture has room for."""
@@ -37,7 +33,14 @@ class Bars(Content):
     def figure(self) -> Figure:
         """Return a bar for each value."""
         figure = new_figure(max(0.6, len(self.values) / ROWS_OF_PICTURE))
-        plot_bars(figure.add_subplot(), self)
+        ax = labelled(figure.add_subplot(), self.title, str(self.quantity), "")
+        values = list(self.values.values())
+        drawn = ax.barh(list(self.values), values, color=[UP if value >= 0.0 else DOWN for value in values], height=0.6)
+        ax.bar_label(drawn, [printed(f"{value:.4g}") for value in values], padding=4, fontsize=10)
+        ax.axvline(0.0, color="0.3", lw=0.8)
+        ax.invert_yaxis()
+        ax.set_axisbelow(True)
+        ax.margins(x=0.15)
         return figure
 
     def records(self) -> Records:
@@ -56,15 +59,3 @@ class Bars(Content):
         names = dict.fromkeys((*self.values, *other.values))
         values = {name: other.values.get(name, 0.0) - self.values.get(name, 0.0) for name in names}
         return Bars(self.subject, self.quantity.changed(), values, note="other − this one")
-
-
-def plot_bars(ax: Axes, bars: Bars) -> Axes:
-    """Draw values as horizontal bars with their figures into ``ax``; return it."""
-    names, values = list(bars.values), list(bars.values.values())
-    drawn = ax.barh(names, values, color=[UP if value >= 0.0 else DOWN for value in values], height=0.6)
-    ax.bar_label(drawn, [printed(f"{value:.4g}") for value in values], padding=4, fontsize=10)
-    ax.axvline(0.0, color="0.3", lw=0.8)
-    ax.invert_yaxis()
-    ax.set_axisbelow(True)
-    ax.margins(x=0.15)
-    return labelled(ax, bars.title, str(bars.quantity), "")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -13,9 +13,6 @@ from matplotlib.figure import Figure
 from .content import Content, Records, span
 from .curves import Array
 from .style import new_figure, printed, sequential
-
-if TYPE_CHECKING:
-    from mpl_toolkits.mplot3d.axes3d import Axes3D  # type: ignore[import-untyped]
 
 LONGEST = 0.9
 """Length of the longest arrow, in mean distances of neighbouring places."""
@@ -53,7 +50,27 @@ class Field(Content):
     def figure(self) -> Figure:
         """Return the arrows, much enlarged, coloured by their size."""
         figure = new_figure(1.3)
-        plot_field(figure.add_subplot(projection="3d"), self)
+        ax: Any = figure.add_subplot(projection="3d")
+        largest = self.largest()
+        scale = float(f"{LONGEST * _distance(self.places) / largest:.2g}") if largest else 0.0
+        mappable = ScalarMappable(Normalize(0.0, largest or 1.0), sequential())
+        # The collection holds all shafts, then all left and all right strokes of the heads.
+        colours = np.tile(mappable.to_rgba(self.sizes()), (3, 1))
+        arrows = scale * self.vectors
+        if largest:
+            ax.quiver(*self.places.T, *arrows.T, colors=colours, lw=2.4, arrow_length_ratio=0.35).set_clip_on(False)
+        ax.scatter(*self.places.T, s=7, color="0.45", depthshade=False)
+        ends = np.concatenate([self.places, self.places + arrows])
+        for limits, side in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), ends.T, strict=True):
+            limits(side.min() - 1.0, side.max() + 1.0)
+        sides = np.ptp(ends, axis=0)
+        ax.set_box_aspect(np.maximum(sides, FLATTEST * max(float(sides.max()), 1.0)), zoom=1.1)
+        for name, label in zip("XYZ", (ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), strict=True):
+            label(f"{name} [mm]", fontsize=11, labelpad=8)
+        ax.view_init(elev=22.0, azim=-60.0)
+        size = f"up to {largest:.1f} µm, drawn {scale * 1e3:,.0f} times as large" if largest else "none at these places"
+        ax.set_title(printed(f"{self.title}: {size}"), fontsize=12)
+        figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
         return figure
 
     def records(self) -> Records:
@@ -73,31 +90,6 @@ class Field(Content):
         if not isinstance(other, Field) or not np.array_equal(self.places, other.places):
             self.not_comparable("the two machines have different work volumes")
         return Field(self.subject, self.places, other.vectors - self.vectors, note="other − this one")
-
-
-def plot_field(ax: Axes3D, field: Field) -> Axes3D:
-    """Draw the arrows into a three-dimensional ``ax``; return it."""
-    largest = field.largest()
-    scale = float(f"{LONGEST * _distance(field.places) / largest:.2g}") if largest else 0.0
-    mappable = ScalarMappable(Normalize(0.0, largest or 1.0), sequential())
-    # The collection holds all shafts, then all left and all right strokes of the heads.
-    colours = np.tile(mappable.to_rgba(field.sizes()), (3, 1))
-    arrows = scale * field.vectors
-    if largest:
-        ax.quiver(*field.places.T, *arrows.T, colors=colours, lw=2.4, arrow_length_ratio=0.35).set_clip_on(False)
-    ax.scatter(*field.places.T, s=7, color="0.45", depthshade=False)
-    ends = np.concatenate([field.places, field.places + arrows])
-    for limits, side in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), ends.T, strict=True):
-        limits(side.min() - 1.0, side.max() + 1.0)
-    sides = np.ptp(ends, axis=0)
-    ax.set_box_aspect(np.maximum(sides, FLATTEST * max(float(sides.max()), 1.0)), zoom=1.1)
-    for name, label in zip("XYZ", (ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), strict=True):
-        label(f"{name} [mm]", fontsize=11, labelpad=8)
-    ax.view_init(elev=22.0, azim=-60.0)
-    size = f"up to {largest:.1f} µm, drawn {scale * 1e3:,.0f} times as large" if largest else "none at these places"
-    ax.set_title(printed(f"{field.title}: {size}"), fontsize=12)
-    ax.figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
-    return ax
 
 
 def _distance(places: Array) -> float:

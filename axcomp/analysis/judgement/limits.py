@@ -29,19 +29,9 @@ NEAR = 0.8
 
 @dataclass(frozen=True)
 class LargestCorrection:
-    """The largest correction that a volumetric compensation makes to an axis.
+    """The largest correction (mm, with its sign) that the volumetric compensation ``index`` makes to an axis.
 
-    Attributes
-    ----------
-    index : int
-        Of the compensation.
-    axis : Axis
-    correction : float
-        mm, with its sign.
-    position : dict of str to float
-        Where, by the name of the axis, mm or °.
-    tool_length : float
-        mm.
+    ``position``: where, by the name of the axis, mm or °; with a ``tool_length`` in mm.
     """
 
     index: int
