@@ -1,6 +1,6 @@
 """SINUMERIK CEC: sag and angularity compensation, one axis corrected over another or over itself.
 
-``$AN_CEC[t,N]`` is the value at point N of table t, ``$AN_CEC_STEP/MIN/MAX[t]`` place the points as in ENC_COMP,
+``$AN_CEC[t,N]`` is the value at point N of table t, ``$AN_CEC_STEP/MIN/MAX[t]`` set the points as in ENC_COMP,
 ``…_INPUT_AXIS`` names the axis looked up, ``…_OUTPUT_AXIS`` the corrected one, ``…_DIRECTION`` says whether the table
 acts in both directions (0) or only in positive (1) or negative (−1) motion of the input axis, ``…_IS_MODULO`` repeats
 it. Tables of one pair of axes add up; two with directions 1 and −1 and the same axis twice are a bilateral leadscrew

@@ -87,7 +87,7 @@ def machine_with(tables: Sequence[CompensationTable], machine: Machine | None = 
     Raises
     ------
     CannotHoldError
-        If the lists have no place for a table, or the machine no such axis.
+        If the lists have no room for a table, or the machine no such axis.
     """
     axes = {axis.name: axis for axis in machine.axes} if machine is not None else _new_axes(tables)
     for table in tables:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 
 WIDE_RATIO = 50.0
-"""From this ratio of the largest to the smallest place on, places are drawn on a logarithmic scale where it helps."""
+"""From this ratio of the largest to the smallest point on, points are drawn on a logarithmic scale where it helps."""
 MARKED_MAX = 150
 """More points than this are not marked: they would hide the line."""
 
@@ -36,7 +36,7 @@ class Curves(Content):
     reversal : bool
         There are two lines whose difference is of interest: it is drawn below them.
     logarithmic : bool
-        The places may be drawn on a logarithmic scale.
+        The points may be drawn on a logarithmic scale.
     zero_if_absent : bool
         A line that another machine lacks is 0 there.
     """
@@ -48,7 +48,7 @@ class Curves(Content):
 
     @property
     def x(self) -> Quantity:
-        """Of the places."""
+        """Of the points."""
         return self.lines[0].over
 
     @property
@@ -56,8 +56,8 @@ class Curves(Content):
         """Of the values."""
         return self.lines[0].of
 
-    def places(self) -> Array:
-        """Return the places of all lines, ascending."""
+    def points(self) -> Array:
+        """Return the points of all lines, ascending."""
         return np.unique(np.concatenate([line.x for line in self.lines]))
 
     def figure(self) -> Figure:
@@ -73,8 +73,8 @@ class Curves(Content):
         return figure
 
     def records(self) -> Records:
-        """Return place and values, a row for each place."""
-        x = self.places()
+        """Return point and values, a row for each point."""
+        x = self.points()
         columns = [np.array(line.at(x)) for line in self.lines]
         names = [f"{line.label} [{self.y.unit}]" for line in self.lines]
         if self.reversal and len(columns) == 2:
@@ -83,8 +83,8 @@ class Curves(Content):
         return Records((str(self.x), *names), np.column_stack([x, *columns]).tolist())
 
     def summary(self) -> tuple[str, str, str]:
-        """Return the number of points, the range of the places and of the values."""
-        x = self.places()
+        """Return the number of points, the range of the points and of the values."""
+        x = self.points()
         values = np.concatenate([line.y for line in self.lines])
         sides = f" × {len(self.lines)}" if len(self.lines) > 1 else ""
         return f"{len(x)}{sides}", span(x.tolist(), self.x.unit), span(np.round(values, 4).tolist(), self.y.unit)
@@ -113,7 +113,7 @@ class Curves(Content):
             if line.label == label:
                 return line
         if self.zero_if_absent:
-            ends = tuple(dict.fromkeys(self.places()[[0, -1]].tolist()))
+            ends = tuple(dict.fromkeys(self.points()[[0, -1]].tolist()))
             return Curve(ends, (0.0,) * len(ends), self.x, self.y)
         return self.lines[0] if len(self.lines) == 1 and label in known else None
 
@@ -146,20 +146,20 @@ class CurvesDifference(Curves):
 def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-", hollow: bool = False) -> Axes:
     """Draw curves with their points into ``ax``; return it."""
     # Of two the second is thinner: where they lie upon each other both are seen.
-    for place, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
+    for index, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
         ax.plot(
             line.x,
             line.y,
             style,
             color=colour,
-            lw=2.2 if place == 0 and len(curves.lines) == 2 else 1.4,
+            lw=2.2 if index == 0 and len(curves.lines) == 2 else 1.4,
             marker=marker if len(line.x) <= MARKED_MAX else None,
             ms=4.5 if len(line.x) <= MARKED_MAX // 3 else 3.0,
             markerfacecolor="white" if hollow else colour,
             label=printed(line.label + suffix),
         )
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
-    if curves.logarithmic and _is_wide(curves.places()):
+    if curves.logarithmic and _is_wide(curves.points()):
         ax.set_xscale("log")
         ax.xaxis.set_major_formatter("{x:g}")
     if len(curves.lines) > 1 or suffix:
@@ -170,7 +170,7 @@ def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-",
 def plot_reversal(ax: Axes, curves: Curves) -> Axes:
     """Draw the first of two curves minus the second into ``ax``; return it."""
     first, second = curves.lines
-    x = curves.places()
+    x = curves.points()
     difference = np.array(first.at(x)) - second.at(x)
     ax.fill_between(x, 0.0, difference, color=COLOURS[2], alpha=0.2, lw=0)
     ax.plot(x, difference, "-", color=COLOURS[2], lw=1.4)

@@ -30,7 +30,7 @@ FLAT, FLAT_SHARE = 0.02, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """One map: whatever has a value at every place, such as a ``Grid`` or a ``Scatter``.
+    """One map: whatever has a value at every point, such as a ``Grid`` or a ``Scatter``.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Layer:
     of : Quantity
         Of the values.
     at : function of (x, y)
-        The value at a place.
+        The value at a point.
     """
 
     label: str
@@ -119,15 +119,15 @@ class Map(Content):
         return figure
 
     def records(self) -> Records:
-        """Return a row for each marked point, else for each place of the grid: place and value of each layer."""
+        """Return a row for each marked point, else for each point of the grid: point and value of each layer."""
         names = [f"{layer.label or self.z.name} [{self.z.unit}]" for layer in self.layers]
         if len(self.points):
-            places = self.points
-            values = np.array([[layer.at(x, y) for layer in self.layers] for x, y in places.tolist()])
+            points = self.points
+            values = np.array([[layer.at(x, y) for layer in self.layers] for x, y in points.tolist()])
         else:
-            places = np.stack(np.meshgrid(self.across, self.up), axis=-1).reshape(-1, 2)
+            points = np.stack(np.meshgrid(self.across, self.up), axis=-1).reshape(-1, 2)
             values = self.values().reshape(len(self.layers), -1).T
-        return Records((str(self.x), str(self.y), *names), np.column_stack([places, values]).tolist())
+        return Records((str(self.x), str(self.y), *names), np.column_stack([points, values]).tolist())
 
     def extract(self, rows: int) -> Records:
         """Return the marked points; else the map as a sheet, rows for one quantity and columns for the other."""
@@ -191,5 +191,5 @@ def _levels(values: Array) -> list[float]:
 
 
 def _widened(side: Array) -> Array:
-    """Return a side with a second place if it has but one: an area needs two."""
+    """Return a side with a second point if it has but one: an area needs two."""
     return side if len(side) > 1 else np.array([side[0], side[0] + 1.0])

@@ -171,7 +171,7 @@ def test_the_tcp_error_is_that_of_the_first_order_formula() -> None:
 def test_the_field_covers_the_work_volume_that_was_measured() -> None:
     field = contents_of(MEASURED, kind="volumetric")[-1]
     assert isinstance(field, Field)
-    assert np.ptp(field.places, axis=0).tolist() == [200.0, 100.0, 200.0]
+    assert np.ptp(field.positions, axis=0).tolist() == [200.0, 100.0, 200.0]
     size = np.array(field.records().rows)
     assert np.allclose(size[:, 6], np.linalg.norm(size[:, 3:6], axis=1))
 

@@ -1,7 +1,7 @@
 """The contributions to the corrections of every axis along a path.
 
 Axis compensations: what the engine adds to the setpoint, cycle by cycle. Volumetric errors: the correction of X, Y and
-Z that each of the 72 alone would lead to, all others zero, at some places of the path. The model is all but linear, so
+Z that each of the 72 alone would lead to, all others zero, at some points of the path. The model is all but linear, so
 these add up to the correction of all errors together, up to products of errors: both sums are compared.
 """
 

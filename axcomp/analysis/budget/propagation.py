@@ -1,7 +1,7 @@
 """From the uncertainty of errors to that of the tool tip, by Monte Carlo through the machine's model (JCGM 101).
 
 In every trial each error is off by a normally distributed amount; the model says by how much the tool tip is off then,
-in the directions of X, Y and Z, at each place of the path. The amounts are a Latin hypercube, so that few trials do.
+in the directions of X, Y and Z, at each point of the path. The amounts are a Latin hypercube, so that few trials do.
 Beside it stands the law of propagation of JCGM 100, from the derivatives of the model: the two agree where the model is
 linear enough.
 """

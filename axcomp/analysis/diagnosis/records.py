@@ -1,4 +1,4 @@
-"""What the parameter files of a volumetric list hold, record by record, each with the place where it stands."""
+"""What the parameter files of a volumetric list hold, record by record, each with the line where it stands."""
 
 from __future__ import annotations
 
