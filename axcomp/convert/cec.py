@@ -24,9 +24,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .resample import on_equidistant_points
 from .sinumerik import GRID, Written, blocks, program, settings
-from .table import CompensationTable
+from .table import CompensationTable, on_equidistant_points
 from .text import DEFAULTS, FormatError, Options
 
 _PREFIX = "$AN_CEC"

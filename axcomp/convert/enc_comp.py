@@ -17,9 +17,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .resample import on_equidistant_points
 from .sinumerik import GRID, Written, blocks, program, settings
-from .table import CompensationTable
+from .table import CompensationTable, on_equidistant_points
 from .text import DEFAULTS, CannotHoldError, FormatError, Options
 
 _PREFIX = "$AA_ENC_COMP"

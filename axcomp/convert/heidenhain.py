@@ -25,8 +25,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from .resample import on_equidistant_points
-from .table import CompensationTable, beginning_at
+from .table import CompensationTable, beginning_at, on_equidistant_points
 from .text import DEFAULTS, CannotHoldError, FormatError, Options, number, shortened
 
 DECIMALS = 4

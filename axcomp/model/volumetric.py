@@ -185,6 +185,10 @@ class Volumetric:
     files: tuple[str, ...] = field(default=(), compare=False)
     diagnosis_file: str = field(default="", compare=False)
 
+    def sign(self, letter: str) -> float:
+        """Return what counts of the correction of a linear axis: −1 where it is negated, 0 where it is left out."""
+        return 0.0 if letter in self.set_to_zero else -1.0 if letter in self.negate else 1.0
+
     def description(self) -> Iterator[tuple[str, float]]:
         """Yield name and value of the describing parameters that are not at their defaults (never ``LN*``)."""
         rows: list[tuple[tuple[str, ...], Triple, Triple]]

@@ -39,14 +39,8 @@ def contents_of(
 ) -> list[Content]:
     """Return what there is to show: axis by axis in the order of a cycle, then the volumetric compensations.
 
-    Parameters
-    ----------
-    machine : Machine
-        With every master its compensations name.
-    axis, kind : str or None
-        Only of this axis, which leaves the TCP error out, only of this kind or ``VOLUMETRIC``.
-    tool_length : float
-        For the TCP error, mm.
+    ``axis``: only of the axis with this name, which leaves the TCP error out; ``kind``: only of this kind, or
+    ``VOLUMETRIC``; ``tool_length``: for the TCP error, mm. The machine has every master its compensations name.
     """
     found = [_content(tables) for tables in tables_of(machine, axis, kind)]
     if kind in {None, VOLUMETRIC}:

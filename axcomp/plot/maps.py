@@ -30,18 +30,10 @@ FLAT, FLAT_SHARE = 0.02, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """One map: whatever has a value at every point, such as a ``Grid`` or a ``Scatter``.
+    """One map: whatever has a value ``at`` every point, such as a ``Grid`` or a ``Scatter``.
 
-    Attributes
-    ----------
-    label : str
-        Tells several in one picture apart.
-    over : two Quantity
-        Across and upwards.
-    of : Quantity
-        Of the values.
-    at : function of (x, y)
-        The value at a point.
+    ``label`` tells several in one picture apart; ``over`` are the quantities across and upwards, ``of`` that of the
+    values.
     """
 
     label: str

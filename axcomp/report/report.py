@@ -109,16 +109,8 @@ def make_report(
 ) -> Report:
     """Judge, evaluate and measure.
 
-    Parameters
-    ----------
-    reading : Reading
-        Of the machine.
-    evidence : Evidence or None
-        Measurements are evaluated, an input file has coverage and budget; None: there is none.
-    cycle_time : float
-        Of the position controller, s.
-    repeats : int
-        Of the measurement of costs; 0: they are not in the report.
+    Measurements of the evidence are evaluated; an input file has coverage and budget, for a position controller's
+    ``cycle_time`` in s. ``repeats``: of the measurement of costs; 0: they are not in the report.
 
     Raises
     ------

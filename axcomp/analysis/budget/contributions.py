@@ -46,18 +46,9 @@ def rms(values: Array) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Contribution:
-    """What one source adds to the setpoint of one axis.
+    """What one source (``leadscrew``, or ``volumetric[0] EXX``) adds to the setpoint of the axis of a name.
 
-    Attributes
-    ----------
-    axis : str
-        Name of the axis.
-    source : str
-        ``leadscrew``, or ``volumetric[0] EXX``.
-    cycles : array of int, shape (n,)
-        Cycles of the path at which there is a value.
-    values : array, shape (n,)
-        µm or ″.
+    ``values``, shape (n,), are in µm or ″, at the ``cycles`` of the path for which there is one.
     """
 
     axis: str
@@ -294,7 +285,7 @@ def _activity(volumetric: Volumetric, columns: Columns, result: Result) -> tuple
 def _of_errors(one: Poses, at: Indices, on: Flags) -> tuple[list[Contribution], Array]:
     """Return what each error alone contributes where the compensation is on, and all together, (n, 3)."""
     name = f"{VOLUMETRIC}[{one.volumetric.index}]"
-    signs = np.array([_sign(one.volumetric, letter) for letter in LINEAR]) * on[:, np.newaxis]
+    signs = np.array([*map(one.volumetric.sign, LINEAR)]) * on[:, np.newaxis]
 
     def corrections(errors: Array) -> Array:
         return shown("mm").factor * signs * one.model.corrections(one.poses, one.tool_lengths, errors)
@@ -310,9 +301,3 @@ def _of_errors(one: Poses, at: Indices, on: Flags) -> tuple[list[Contribution], 
             if values.any():
                 found.append(Contribution(axis, f"{name} {ERRORS[error]}", at, values))
     return found, together
-
-
-def _sign(volumetric: Volumetric, letter: str) -> float:
-    if letter in volumetric.set_to_zero:
-        return 0.0
-    return -1.0 if letter in volumetric.negate else 1.0

@@ -60,19 +60,9 @@ Position = tuple[float | None, ...]
 
 
 class Record(NamedTuple):
-    """One value of a parameter file.
+    """One value of a parameter file, in mm or rad or a bare number, with its line.
 
-    Attributes
-    ----------
-    parameter : str
-        One of ``PARAMETERS``.
-    position : tuple of float or None, shape (6,)
-    value : float
-        mm, rad or a bare number.
-    line : int
-        Where it stands in its file.
-    note : str
-        Why it does not count, "" if it does.
+    ``parameter`` is one of ``PARAMETERS``; ``note`` says why the record does not count, "" if it does.
     """
 
     parameter: str
@@ -86,16 +76,8 @@ class Record(NamedTuple):
 class ParameterFile:
     """A parameter file with its records, sorted by parameter (``ERRORS``, then ``DESCRIPTION``) and position.
 
-    Attributes
-    ----------
-    index : int
-        0..9, ``j`` of ``file[j]``.
-    path : Path
-        Where it lies, or its name alone if there is no such file.
-    was_read : bool
-        False if there is none, or it is no text.
-    records : tuple of Record
-        Those of a polyline in the order of the file.
+    Those of a polyline stand in the order of the file. ``index``, 0..9, is ``j`` of ``file[j]``; ``path`` is the name
+    alone if there is no such file; ``was_read`` is false if there is none, or it is no text.
     """
 
     index: int

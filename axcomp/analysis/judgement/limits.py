@@ -67,12 +67,12 @@ def largest_corrections(machine: Machine, tool_length: float = 0.0) -> Iterator[
         lengths = np.full(len(positions), tool_length)
         corrections = model.corrections(positions, lengths, model.known_errors(positions))
         for index, letter in machine.members(volumetric).items():
-            if letter in LINEAR and letter not in volumetric.set_to_zero:
+            if letter in LINEAR and volumetric.sign(letter):
                 found = corrections[:, LINEAR.index(letter)]
                 if not np.isnan(found).all():
                     worst = int(np.nanargmax(np.abs(found)))
                     where = {names[a]: p for a, p in zip(LETTERS, positions[worst].tolist(), strict=True) if a in names}
-                    value = float(-found[worst] if letter in volumetric.negate else found[worst])
+                    value = volumetric.sign(letter) * float(found[worst])
                     yield LargestCorrection(volumetric.index, machine.axes[index], value, where, tool_length)
 
 

@@ -59,17 +59,10 @@ class Spikes(NamedTuple):
 
 
 def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
-    """Return how far each point of a table is off its neighbours.
+    """Return how far each point x (n,), ascending, of a table with values y (n, …) is off its neighbours.
 
-    Parameters
-    ----------
-    x : array, shape (n,)
-        Positions, ascending.
-    y : array, shape (n, ...)
-        Values.
-    period : float or None
-        The table repeats after it, so that the first and the last points have neighbours on both sides; ``x`` then
-        holds no point twice. None: the first two and the last two points are not judged.
+    With a ``period`` the first and the last points have neighbours on both sides, and ``x`` holds no point twice;
+    without one the first two and the last two points are not judged.
     """
     if period is not None:
         x = np.concatenate([x[-2:] - period, x, x[:2] + period])
