@@ -69,11 +69,8 @@ class Field(Content):
         for name, label in zip("XYZ", (ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), strict=True):
             label(f"{name} [mm]", fontsize=11, labelpad=8)
         ax.view_init(elev=22.0, azim=-60.0)
-        size = (
-            f"up to {largest:.1f} µm, drawn {scale * shown('mm').factor:,.0f} times as large"
-            if largest
-            else "none at these places"
-        )
+        enlarged = scale * shown("mm").factor
+        size = f"up to {largest:.1f} µm, drawn {enlarged:,.0f} times as large" if largest else "none at these places"
         ax.set_title(printed(f"{self.title}: {size}"), fontsize=12)
         figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
         return figure
