@@ -9,8 +9,8 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from .kinds import NUMBERS, VEC, ArrayType, RecordType, Scalar, Type, VecType, element_of
-from .program import BROKEN, Constant, Function, Intrinsic, Number, Program, check_range, fold
+from .kinds import NUMBERS, ArrayType, RecordType, Scalar, Type, VecType, element_of
+from .program import Constant, Function, Intrinsic, Number, Program, check_range, fold
 from .source import Module
 from .subset import TEXT, RefusedError, outside
 from .writer import UNBROKEN
@@ -37,6 +37,7 @@ _COMPARE: dict[type[ast.cmpop], tuple[str, int]] = {
     ast.Eq: ("==", EQUAL),
     ast.NotEq: ("!=", EQUAL),
 }
+_KINDS: dict[type, Scalar] = {bool: Scalar.BOOL, int: Scalar.INT, float: Scalar.FLOAT}
 _AND_IN_CHAIN = f"{UNBROKEN}&&{UNBROKEN}"
 _HINTS = {
     "int for float": ": write 0.0 for 0, or float(…)",
@@ -161,8 +162,7 @@ class Expressions:
     def _literal(self, node: ast.Constant) -> Text:
         match node.value:
             case bool(value) | int(value) | float(value):
-                kind = {bool: Scalar.BOOL, int: Scalar.INT, float: Scalar.FLOAT}[type(value)]
-                return Text(self._module.literal(node), POSTFIX, kind, check_range(node, value))
+                return Text(self._module.literal(node), POSTFIX, _KINDS[type(value)], check_range(node, value))
             case str() | bytes():
                 raise RefusedError(node, TEXT)
         raise RefusedError(node, f"{node.value!r} is no value in C")
@@ -173,12 +173,9 @@ class Expressions:
             if kind is None:
                 raise RefusedError(node, "")
             return Text(node.id, POSTFIX, kind, pointer=isinstance(kind, RecordType))
-        entity = self._program.names[self._module.name].get(node.id)
+        entity = self._program.entity(self._module, node)
         if isinstance(entity, Constant):
-            kind = {int: Scalar.INT, float: Scalar.FLOAT, bool: Scalar.BOOL}[type(entity.value)]
-            return Text(entity.c_name, POSTFIX, kind, entity.value)
-        if entity == BROKEN:
-            raise RefusedError(node, "")
+            return Text(entity.c_name, POSTFIX, _KINDS[type(entity.value)], entity.value)
         raise RefusedError(node, f"{node.id} is {'no value' if entity else 'not known here'}")
 
     def _attribute(self, node: ast.Attribute) -> Text:
@@ -265,13 +262,11 @@ class Expressions:
         if node.keywords:
             raise RefusedError(node, "arguments are given by position")
         name = node.func.id
-        entity = self._program.names[self._module.name].get(name)
         if name in self.kinds:
             raise RefusedError(node, f"{name} is a local, not a function")
+        entity = self._program.entity(self._module, node.func)
         if isinstance(entity, Function):
             return self._call_of(node, entity)
-        if entity == BROKEN:
-            raise RefusedError(node, "")
         if entity in (None, Intrinsic(name)):
             return self._intrinsic(node, name, known=entity is not None)
         raise RefusedError(node, f"{name} is no function: a record is made outside the kernel")
@@ -291,14 +286,14 @@ class Expressions:
         if isinstance(kind, Scalar):
             return self.of(node, kind, what).c
         text = self.text(node)
-        long_enough = (
-            isinstance(kind, ArrayType)
-            and isinstance(text.kind, ArrayType)
-            and text.kind.element == kind.element
-            and text.kind.length >= kind.length
-        )
-        as_table = kind == VEC and isinstance(text.kind, ArrayType) and text.kind.element is Scalar.FLOAT
-        if not (text.kind == kind or long_enough or as_table):
+        match text.kind, kind:
+            case ArrayType() as given, ArrayType() as wanted:
+                fits = given.element == wanted.element and given.length >= wanted.length
+            case ArrayType(element=element), VecType():
+                fits = element is Scalar.FLOAT
+            case _:
+                fits = text.kind == kind
+        if not fits:
             raise RefusedError(node, f"{what} is {kind}, this is {text.kind}")
         return f"&{text.at(POSTFIX)}" if isinstance(kind, RecordType) and not text.pointer else text.c
 

@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from .kinds import VEC, ArrayType, RecordType, Scalar, Type
-from .names import c_name, check_name
 from .source import RUN_TIME_MODULE, Module
-from .subset import RefusedError, Report, outside
+from .subset import RefusedError, Report, c_name, check_name, outside
 
 Number: TypeAlias = int | float | bool
 
@@ -162,10 +161,12 @@ class Program:
             if isinstance(definition, Record):
                 self._check_fields(definition)
 
-    def function_named(self, module: Module, name: str) -> Function | None:
-        """Return the function that ``name`` means in a module, None if it means something else."""
-        entity = self.names[module.name].get(name)
-        return entity if isinstance(entity, Function) else None
+    def entity(self, module: Module, node: ast.expr) -> Entity | None:
+        """Return what a name means in a module, None if nothing; refuses what has been refused where it was defined."""
+        entity = self.names[module.name].get(node.id) if isinstance(node, ast.Name) else None
+        if entity == BROKEN:
+            raise RefusedError(node, "")
+        return entity
 
     def defined_as(self, name_in_c: str) -> Definition | None:
         """Return what has a name at C's file scope."""
@@ -187,18 +188,15 @@ class Program:
             raise RefusedError(owner, f"{getattr(owner, 'arg', getattr(owner, 'name', 'this'))} has no annotation")
         if isinstance(node, ast.Constant) and node.value is None:
             return Scalar.NONE
-        if isinstance(node, ast.Name):
-            entity = self.names[module.name].get(node.id)
-            if isinstance(entity, Record):
-                return RecordType(entity.c_name)
-            if isinstance(entity, Alias):
-                return entity.kind
-            if entity == Intrinsic("Vec"):
-                return VEC
-            if entity == BROKEN:
-                raise RefusedError(node, "")
-            if node.id in _SCALARS:
-                return _SCALARS[node.id]
+        entity = self.entity(module, node)
+        if isinstance(entity, Record):
+            return RecordType(entity.c_name)
+        if isinstance(entity, Alias):
+            return entity.kind
+        if entity == Intrinsic("Vec"):
+            return VEC
+        if isinstance(node, ast.Name) and node.id in _SCALARS:
+            return _SCALARS[node.id]
         if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id == "Annotated":
             return self._array(module, node)
         raise RefusedError(node, f"{ast.unparse(node)} is no type of the subset")
@@ -208,10 +206,8 @@ class Program:
         value, text = None, ""
         if isinstance(node, ast.Constant):
             value, text = node.value, str(node.value)
-        elif isinstance(node, ast.Name):
-            entity = self.names[module.name].get(node.id)
-            if isinstance(entity, Constant):
-                value, text = entity.value, entity.c_name
+        elif isinstance(entity := self.names[module.name].get(ast.unparse(node)), Constant):
+            value, text = entity.value, entity.c_name
         if type(value) is not int or value < 1:
             raise RefusedError(
                 node, f"{ast.unparse(node)} is no length: it takes a whole number or a constant, at least 1"
@@ -291,12 +287,8 @@ class Program:
         match node:
             case ast.Constant(value=bool() | int() | float() as value):
                 return check_range(node, value)
-            case ast.Name(id=name):
-                entity = self.names[module.name].get(name)
-                if isinstance(entity, Constant):
-                    return entity.value
-                if entity == BROKEN:
-                    raise RefusedError(node, "")
+            case ast.Name() if isinstance(entity := self.entity(module, node), Constant):
+                return entity.value
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return check_range(node, -self._value(module, operand))
             case ast.BinOp(left=left, op=kind, right=right):

@@ -10,10 +10,9 @@ from .effects import Effects, root
 from .expressions import SHIFT, Expressions, Text, operator_of
 from .kinds import ArrayType, RecordType, Scalar, Type, VecType, local, parameter
 from .margins import Margins
-from .names import check_name
 from .program import Constant, Function, Intrinsic, Program, Record
 from .scopes import Block, Declarations, Flow, mentions, names_in, stores
-from .subset import RefusedError, outside
+from .subset import RefusedError, check_name, outside
 from .writer import Writer
 
 
