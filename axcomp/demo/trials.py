@@ -69,15 +69,15 @@ class Trial:
 
     @property
     def never_on(self) -> tuple[str, ...]:
-        """Those that are off in both runs: what moves the tool tip to its place moves an axis away from its own."""
+        """Those that are off in both: what moves the tool tip where it should be moves an axis away from its target."""
         return () if self.kind == VOLUMETRIC else (VOLUMETRIC,)
 
-    def place(self, axis: str) -> Array:
+    def target(self, axis: str) -> Array:
         """Return where an axis should be at the end of each cycle, shape (cycles,): its raw setpoint, delayed."""
         raw = self.setpoints[axis].position
         late = np.concatenate([np.repeat(raw[:1], LATENCY), raw])
-        place: Array = 0.5 * (late[: len(raw)] + late[1 : len(raw) + 1])
-        return place
+        target: Array = 0.5 * (late[: len(raw)] + late[1 : len(raw) + 1])
+        return target
 
 
 def trials_of(machine: Machine, cycle_time: float) -> list[Trial]:

@@ -42,11 +42,11 @@ def _trial(stage: Stage, axes: Sequence[Axis], stops: int, limits: Limits, *, cl
     """Return the trial in which axes go together from one end of their ranges to the other, stop by stop."""
     moving = tuple(name_of(axis) for axis in axes)
     # A share of the step inside the ends, so that the stops fall between the points of the tables.
-    places = [_at(stage, moving, (stop + 0.37) / stops) for stop in range(stops + closed)]
-    course = Course({**_at(stage, stage.spans, ASIDE), **places[0]}, stage.cycle_time)
+    targets = [_at(stage, moving, (stop + 0.37) / stops) for stop in range(stops + closed)]
+    course = Course({**_at(stage, stage.spans, ASIDE), **targets[0]}, stage.cycle_time)
     read = []
-    for place in places:
-        course.move(place, limits)
+    for target in targets:
+        course.move(target, limits)
         read.append(settle(course, STANDSTILL))
     return Trial(VOLUMETRIC, course.setpoints(), {TCP: np.array(read)}, moving)
 

@@ -66,8 +66,8 @@ def needed_files(slave: Path, package: Path) -> list[Path]:
 
 def _file_of(package: Path, module: Module) -> Path | None:
     """Return the file of a module; None where the name is something inside a module."""
-    place = package.joinpath(*module)
-    for path in (place / "__init__.py", place.with_suffix(".py")):
+    stem = package.joinpath(*module)
+    for path in (stem / "__init__.py", stem.with_suffix(".py")):
         if path.is_file() and path != package.with_suffix(".py"):
             return path
     return None
