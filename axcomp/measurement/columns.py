@@ -153,10 +153,9 @@ def read_columns(path: Path, wanted: Sequence[Column]) -> Columns:
         lines.append(line)
     if names is None or not rows:
         raise MeasurementError(file, 0, "There is no measured value in it.")
-    table = np.array(rows)
     values = {
-        column.name: table[:, place] * (column.units[unit] if column.units else 1.0)
-        for place, (column, unit) in enumerate(names)
+        column.name: cells * (column.units[unit] if column.units else 1.0)
+        for cells, (column, unit) in zip(np.array(rows).T, names, strict=True)
     }
     units = {column.name: unit for column, unit in names}
     return Columns(file, values, units, np.array(lines), details)
@@ -218,10 +217,9 @@ def _row(file: str, line: int, cells: Sequence[str], names: Sequence[tuple[Colum
         raise MeasurementError(file, line, f"There are {len(cells)} cells for {len(names)} columns.")
     row = []
     for cell, (column, _) in zip(cells, names, strict=True):
-        value = _DIRECTIONS.get(cell.lower()) if column.direction else _number(cell)
-        if value is None and column.direction:
-            value = _number(cell)
-            value = value if value in (1.0, -1.0) else None
+        value = _number(cell)
+        if column.direction:
+            value = _DIRECTIONS.get(cell.lower(), value if value in (1.0, -1.0) else None)
         if value is None or not math.isfinite(value):
             kind = "direction (+ or −)" if column.direction else "number"
             raise MeasurementError(file, line, f"“{cell}” is no {kind}, as {column.name} has to be.")

@@ -77,10 +77,10 @@ class Positioning:
 
     def grid(self) -> tuple[Array, npt.NDArray[np.int64], Array]:
         """Return targets (m,), runs (k,) and deviations (2, m, k): first positive direction, NaN where nothing is."""
-        targets, place = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
+        targets, target = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
         runs, run = np.unique(self.runs, return_inverse=True)
         deviations = np.full((2, len(targets), len(runs)), np.nan)
-        deviations[(self.directions < 0).astype(int), place, run] = self.deviations
+        deviations[(self.directions < 0).astype(int), target, run] = self.deviations
         return targets, runs, deviations
 
     def only(self, chosen: npt.NDArray[np.bool_]) -> Positioning:
@@ -112,20 +112,12 @@ def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Posi
     Raises
     ------
     MeasurementError
-        The file cannot be read, or a line of it; it names the place.
+        The file cannot be read, or a line of it; it names file and line.
     """
     path = Path(path)
     if is_rtl(path):
-        linear = read_rtl(path)
-        return Positioning(
-            linear.targets,
-            linear.runs,
-            linear.directions,
-            linear.deviations,
-            axis=linear.details.get("axis", ""),
-            source=str(path),
-            details=linear.details,
-        )
+        readings, details = read_rtl(path)
+        return Positioning(*readings, axis=details.get("axis", ""), source=str(path), details=details)
     return _from_columns(read_columns(path, COLUMNS), of_another_axis)
 
 
@@ -198,12 +190,11 @@ def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
     targets = columns.positions("target")
     directions = columns.values["direction"].astype(np.int64)
     seen: dict[tuple[float, int, int], int] = {}
-    for *key, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):
-        place = (float(key[0]), int(key[1]), int(key[2]))
-        if place in seen:
-            sentence = f"Target {place[0]:g} of run {place[1]} is there already, in line {seen[place]}."
+    for *reading, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):
+        first = seen.setdefault((reading[0], reading[1], reading[2]), line)
+        if first != line:
+            sentence = f"Target {reading[0]:g} of run {reading[1]} is there already, in line {first}."
             raise MeasurementError(columns.file, int(line), sentence)
-        seen[place] = int(line)
     return Positioning(
         targets,
         runs,
