@@ -20,7 +20,7 @@ from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native
 from ..fmu.package import package_axcomp
 from ..model.machine import CYCLE_TIME, Machine
-from ..plant.fmu import package_plant, read_plant
+from ..plant.fmu import package_plant, plant_variables
 from .coupling import BATCH, COMMANDS, COMPENSATION, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
 from .trials import VOLUMETRIC, Trial, name_of, trials_of
@@ -53,7 +53,7 @@ def demonstrate(lists: Path, output: Path) -> Demo:
     if not lists.exists():
         raise DemoError(f"{lists} does not exist.")
     model = lists if lists.is_dir() else lists.parent
-    variables, _ = read_plant(model)
+    variables = plant_variables(model)
     output.mkdir(parents=True, exist_ok=True)
     built, note = _compensation(lists, output / f"{COMPENSATION}.fmu")
     plant = package_plant(model, output / f"{PLANT}.fmu")

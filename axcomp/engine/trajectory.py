@@ -58,8 +58,8 @@ class InputFile:
         exact = np.abs(at[held] - instants) <= 1e-6 * cycle_time
         found: Columns = {}
         for name, values in self.columns.items():
-            between = values[held] if _switches(values) else np.interp(instants, at, values)
-            found[name] = np.where(exact, values[held], between)
+            switches = np.isin(values, (0.0, 1.0)).all()
+            found[name] = np.where(exact | switches, values[held], np.interp(instants, at, values))
         return found
 
 
@@ -114,11 +114,8 @@ class Motion:
         at = 2.0 * np.pi * np.arange(cycles) * cycle_time
         for axis, sine in self.sines.items():
             angle, speed = sine.frequency * at + np.radians(sine.phase), 2.0 * np.pi * sine.frequency
-            setpoints[axis] = Setpoints(
-                sine.centre + sine.amplitude * np.sin(angle),
-                sine.amplitude * speed * np.cos(angle),
-                -sine.amplitude * speed**2 * np.sin(angle),
-            )
+            swing, rate = sine.amplitude * np.sin(angle), sine.amplitude * speed * np.cos(angle)
+            setpoints[axis] = Setpoints(sine.centre + swing, rate, -sine.amplitude * speed**2 * np.sin(angle))
         found: Columns = {}
         for axis, commands in setpoints.items():
             found[f"{axis}.{_SETPOINT}"] = commands.position[:cycles]
@@ -185,8 +182,7 @@ def read_input(path: Path) -> InputFile:
         rows.append([_number(path, line, name, cell) for name, cell in zip(names, cells, strict=True)])
     if not rows:
         raise InputError(f"{path}: There is no row of inputs in it.")
-    table = np.array(rows)
-    columns = {name: table[:, place] for place, name in enumerate(names)}
+    columns = dict(zip(names, np.array(rows).T, strict=True))
     time = columns.pop(TIME, None)
     if not columns:
         raise InputError(f"{path}: There is no input besides {TIME}.")
@@ -204,10 +200,6 @@ def _number(path: Path, line: int, name: str, cell: str) -> float:
     if name == TIME and not math.isfinite(value):
         raise InputError(f"{path}:{line}: {cell!r} is no time in s.")
     return value
-
-
-def _switches(values: Array) -> bool:
-    return bool(np.isin(values, (0.0, 1.0)).all())
 
 
 def _cycles(duration: float, cycle_time: float) -> int:

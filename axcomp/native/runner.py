@@ -11,7 +11,7 @@ import numpy as np
 
 from ..interface.variable import Variable
 from ..kernel.record import Vec
-from ..kernel.records import Inputs, Outputs, State, Tables
+from ..kernel.records import Inputs, Outputs, Tables
 from ..runtime.runtime import Runtime
 from .layout import ctypes_of, from_c, offset_of, to_c
 
@@ -75,17 +75,14 @@ def run_compiled(
     -------
     ndarray, shape (n, len(results))
     """
-    state, inputs, outputs = ctypes_of(State)(), ctypes_of(Inputs)(), ctypes_of(Outputs)()
-    records = ((runtime.state, state), (runtime.inputs, inputs), (runtime.outputs, outputs))
+    records = [(record, ctypes_of(type(record))()) for record in (runtime.state, runtime.inputs, runtime.outputs)]
     for record, struct in records:
         to_c(record, struct)
     values = np.empty((len(rows), len(results)))
     kernel.axcomp_run(
         ctypes.byref(compiled.structure),
         compiled.pool.ctypes.data_as(DOUBLES),
-        ctypes.byref(state),
-        ctypes.byref(inputs),
-        ctypes.byref(outputs),
+        *(ctypes.byref(struct) for _, struct in records),
         ctypes.c_int64(len(rows)),
         _fields(Inputs, given),
         ctypes.c_int32(len(given)),
@@ -103,11 +100,11 @@ def run_compiled(
 def _fields(cls: Any, variables: Sequence[Variable]) -> Any:
     fields = (_Field * len(variables))()
     for field, variable in zip(fields, variables, strict=True):
-        place = ""
+        owner = ""
         if variable.axis is not None:
-            place = f"axis[{variable.axis}]."
+            owner = f"axis[{variable.axis}]."
         elif variable.volumetric is not None:
-            place = f"volumetric[{variable.volumetric}]."
-        field.offset = offset_of(cls, place + variable.field)
+            owner = f"volumetric[{variable.volumetric}]."
+        field.offset = offset_of(cls, owner + variable.field)
         field.type = {float: b"r", bool: b"b", int: b"i"}[type(variable.start)]
     return fields

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .drive import STATE, Drive
-from .geometry import AxisErrors, Motion
+from .geometry import AxisErrors, MotionState
 from .poses import Vector
 from .rigid_bodies import RigidBodies
 
@@ -69,7 +69,7 @@ class Plant:
                 self.bodies = RigidBodies(description["rigid_bodies"], self.names, [unit == "deg" for unit in units])
             except WRONG as error:
                 raise PlantError(f"rigid_bodies: {_what(error)}") from error
-        self.motion = Motion(len(axes))
+        self.motion = MotionState(len(axes))
         self.rest_at([0.0] * len(axes))
 
     @classmethod

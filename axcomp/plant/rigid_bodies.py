@@ -1,17 +1,17 @@
 """The machine as a chain of rigid bodies from the workpiece over the bed to the tool: where the tool tip really is.
 
 Each axis is a joint that carries one body on another, and does so imperfectly: its direction is tilted, a rotary axis
-lies beside its place, and whatever it carries moves a little in all six degrees of freedom along with its position.
+lies beside where it should, and whatever it carries moves a little in all six degrees of freedom along with its position.
 Each body is carried by one pose ``motion(q) · nominal motion along or about the displaced axis``; seen from the
 workpiece the tool tip is where the poses from the tool to the bed put it, and back through those up to the workpiece.
 
-All bodies stand at their nominal places when all axes are at 0: there the machine is referenced and measured from.
+All bodies stand where they nominally do when all axes are at 0: there the machine is referenced and measured from.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from .curves import MILLI, Curve
@@ -122,18 +122,17 @@ class RigidBodies:
         positions : sequence of float
             Of all axes, mm or °.
         """
-        for index, joint in reversed(self.tool):
-            point = joint.actual(positions[index]).place(point)
-        for index, joint in reversed(self.workpiece):
-            point = joint.actual(positions[index]).place_back(point)
-        return point
+        return self._seen(point, positions, Joint.actual)
 
     def nominal_place(self, point: Vector, positions: Sequence[float]) -> Vector:
         """Return where the point would be on a perfect machine."""
+        return self._seen(point, positions, Joint.nominal)
+
+    def _seen(self, point: Vector, positions: Sequence[float], pose: Callable[[Joint, float], Pose]) -> Vector:
         for index, joint in reversed(self.tool):
-            point = joint.nominal(positions[index]).place(point)
+            point = pose(joint, positions[index]).place(point)
         for index, joint in reversed(self.workpiece):
-            point = joint.nominal(positions[index]).place_back(point)
+            point = pose(joint, positions[index]).place_back(point)
         return point
 
 
