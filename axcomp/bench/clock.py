@@ -12,16 +12,9 @@ from dataclasses import dataclass
 class Sample:
     """Repeated measurements of one cost.
 
-    Attributes
-    ----------
-    name : str
-        What was measured.
-    unit : str
-        ``µs`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``×`` for ratios.
-    values : tuple of float
-        The measurements.
-    goal : float or None
-        What it may cost at most, in the same unit; of a ratio: what it must be at least. None: no figure is set.
+    ``unit``: ``µs`` or ``ns`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``×`` for
+    ratios. ``goal``: what it may cost at most, in the same unit; of a ratio: what it must be at least; None: no figure
+    is set.
     """
 
     name: str

@@ -36,17 +36,8 @@ class Simulation(NamedTuple):
 class Batch(NamedTuple):
     """What a process has to do.
 
-    Attributes
-    ----------
-    axes : sequence of str
-        Names of the axes in the variables of both FMUs.
-    currents : sequence of str
-        Those with friction compensation.
-    cycle_time : float
-        Communication step, s.
-    tool_length : float or None
-        mm; None: the plant knows no tool tip.
-    simulations : sequence of Simulation
+    ``axes``: names in the variables of both FMUs; ``currents``: those with friction compensation; ``cycle_time``: the
+    communication step, s; ``tool_length``: mm, None: the plant knows no tool tip.
     """
 
     axes: Sequence[str]

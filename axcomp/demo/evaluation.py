@@ -38,21 +38,11 @@ class Trace(NamedTuple):
 
 @dataclass(frozen=True)
 class Outcome:
-    """The error of one axis, or of the tool tip, in one trial, in µm or ″.
+    """The error of one axis, or of the tool tip, in one trial, in µm or ″ (``unit``).
 
-    Attributes
-    ----------
-    trial : Trial
-    axis : str
-        Its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off.
-    unit : str
-        ``µm`` or ``″``.
-    cycles : array of int
-        The cycles that count.
-    without, compensated : array, shape as cycles
-        Tool error: true position − target.
-    following_error : float
-        Largest in these cycles, with compensation.
+    ``axis``: its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off. ``without`` and ``compensated``:
+    tool error, true position − target, at the ``cycles`` that count. ``following_error``: the largest in these, with
+    compensation.
     """
 
     trial: Trial

@@ -45,16 +45,9 @@ GEOMETRIC = tuple(kind for kind in KINDS if kind != "friction")
 class Trial:
     """A motion that shows the error of some axes.
 
-    Attributes
-    ----------
-    kind : str
-        The compensation it is about; ``all``: all geometric ones together.
-    setpoints : mapping of str to Setpoints
-        What the controller commands each axis, by its name.
-    watched : mapping of str to array of int
-        The cycles at which the error of an axis counts, or that of the tool tip (``TCP``).
-    moving : tuple of str
-        The axes that a volumetric trial moves.
+    ``kind``: the compensation it is about; ``all``: all geometric ones together. ``setpoints``: what the controller
+    commands each axis, by its name. ``watched``: the cycles at which the error of an axis counts, or that of the tool
+    tip (``TCP``). ``moving``: the axes that a volumetric trial moves.
     """
 
     kind: str

@@ -69,19 +69,9 @@ def move(start: float, end: float, cycle_time: float, limits: Limits) -> Array:
 
 
 class Course:
-    """A motion of several axes, put together piece by piece.
+    """A motion of several axes, put together piece by piece from where each stands at first, mm or °.
 
-    Parameters
-    ----------
-    start : mapping of str to float
-        Where each axis stands at first, mm or °.
-    cycle_time : float
-        s.
-
-    Attributes
-    ----------
-    cycles : int
-        Length so far; the first cycle is the start.
+    ``cycles``: its length so far; the first cycle is the start.
     """
 
     def __init__(self, start: Mapping[str, float], cycle_time: float) -> None:

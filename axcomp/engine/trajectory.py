@@ -30,14 +30,9 @@ class InputError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class InputFile:
-    """Inputs from a table with a column for each.
+    """Inputs from a table with a column for each, shape (rows,), by name.
 
-    Attributes
-    ----------
-    columns : mapping of str to array, shape (rows,)
-        By name, without time.
-    time : array, shape (rows,), or None
-        Ascending, s; None: a row a cycle.
+    ``time``: ascending, s, shape (rows,); None: a row a cycle.
     """
 
     columns: Mapping[str, Array]
@@ -77,17 +72,9 @@ class Sine:
 class Motion:
     """A motion that is generated.
 
-    Attributes
-    ----------
-    start : mapping of str to float
-        Where the axes of the moves begin, mm or °.
-    moves : sequence of mappings of str to float
-        Targets by axis, with ``velocity``, ``acceleration``, ``jerk`` of their own; or ``dwell`` in s. Over and over
-        again until the duration is over.
-    sines : mapping of str to Sine
-        By axis.
-    limits : Limits
-        Of the moves that say nothing else.
+    ``start``: where the axes of the moves begin, mm or °. ``moves``: targets by axis, with ``velocity``,
+    ``acceleration``, ``jerk`` of their own; or ``dwell`` in s; over and over again until the duration is over.
+    ``sines``: by axis. ``limits``: of the moves that say nothing else.
     """
 
     start: Mapping[str, float] = field(default_factory=dict)

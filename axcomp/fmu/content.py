@@ -28,22 +28,9 @@ PACKAGE = Path(__file__).resolve().parents[1]
 class Built(NamedTuple):
     """What a machine's lists give for its FMU, and the file that was written from them.
 
-    Attributes
-    ----------
-    reading : Reading
-        Of a machine with at least one axis.
-    compiled : Compiled
-        Tables of the machine.
-    variables : tuple of Variable
-        The one list.
-    description : Description
-        Without what depends on the kind of FMU.
-    start : str
-        What ``read_machine`` must read in ``resources``.
-    lists : mapping of str to bytes
-        Path in ``resources`` → contents.
-    path : Path
-        The file, once it is written.
+    The machine has at least one axis. The description lacks what depends on the kind of FMU. ``start`` is what
+    ``read_machine`` must read in ``resources``, ``lists`` the contents by path there; ``path`` is the file, once it is
+    written.
     """
 
     reading: Reading

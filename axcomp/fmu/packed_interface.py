@@ -19,14 +19,9 @@ FILE_NAME = "axcomp.json"
 class Interface:
     """What does not change when the lists do.
 
-    Attributes
-    ----------
-    lists : str
-        Start-up list or single list, relative to ``resources``, with ``/``.
-    cycle_time : float
-        Of the position controller, s.
-    axes : tuple of Axis
-        Those that have variables, in their order, without compensations: a corrected setpoint is the setpoint.
+    ``lists``: start-up list or single list, relative to ``resources``, with ``/``; ``cycle_time``: of the position
+    controller, s; ``axes``: those that have variables, in their order, without compensations: a corrected setpoint is
+    the setpoint.
     """
 
     lists: str = ""

@@ -16,21 +16,10 @@ Module = tuple[str, ...]
 
 
 def renamed_sources(slave: Path, package: Path) -> tuple[str, dict[str, bytes]]:
-    """Return the name of the slave's module, and the files that ``resources`` needs for it.
+    """Return the name of the slave's module, and the files that ``resources`` needs for it: contents by path.
 
-    Parameters
-    ----------
-    slave : Path
-        Module that imports from the package by absolute names.
-    package : Path
-        Folder of the package; inside it imports are relative.
-
-    Returns
-    -------
-    str
-        The slave's name with a hash of its own contents and those of the package.
-    dict of str to bytes
-        Path in ``resources`` → contents.
+    The slave imports from the package by absolute names; inside it imports are relative. The name carries a hash of the
+    slave's own contents and those of the package.
     """
     files = {path.relative_to(package).as_posix(): _text(path) for path in needed_files(slave, package)}
     digest = hashlib.sha256(_text(slave))

@@ -28,14 +28,7 @@ class _Field(ctypes.Structure):
 class CompiledTables:
     """Tables as C has them; making them costs more than many cycles, so they are kept as long as they are in force.
 
-    Attributes
-    ----------
-    tables : Tables
-        What they were made of; the kernel never changes tables.
-    structure : ctypes.Structure
-        The same in C.
-    pool : ndarray
-        The numbers that they point into.
+    ``tables``: what they were made of, which the kernel never changes; ``pool``: the numbers that they point into.
     """
 
     def __init__(self, tables: Tables, pool: Vec) -> None:
@@ -56,24 +49,9 @@ def run_compiled(
 ) -> NDArray[np.float64]:
     """Run one cycle for each row; the runtime is then where as many calls of ``cycle`` had brought it.
 
-    Parameters
-    ----------
-    kernel : CDLL
-        From ``library.compiled_kernel``.
-    compiled : CompiledTables
-        Of the runtime's tables.
-    runtime : Runtime
-        Its state, inputs and outputs go into the kernel and come back.
-    given : sequence of Variable
-        Inputs of the columns.
-    rows : ndarray, shape (n, len(given))
-        C-contiguous; Booleans are 0 or 1.
-    results : sequence of Variable
-        Outputs wanted.
-
-    Returns
-    -------
-    ndarray, shape (n, len(results))
+    ``kernel`` comes from ``library.compiled_kernel``, ``compiled`` are the runtime's tables; its state, inputs and
+    outputs go into the kernel and come back. ``rows``, shape (n, len(given)), C-contiguous, are the inputs ``given``,
+    Booleans 0 or 1. Returns the outputs ``results``, shape (n, len(results)).
     """
     records = [(record, ctypes_of(type(record))()) for record in (runtime.state, runtime.inputs, runtime.outputs)]
     for record, struct in records:

@@ -1,9 +1,9 @@
 """The machine as a chain of rigid bodies from the workpiece over the bed to the tool: where the tool tip really is.
 
 Each axis is a joint that carries one body on another, and does so imperfectly: its direction is tilted, a rotary axis
-lies beside where it should, and whatever it carries moves a little in all six degrees of freedom along with its position.
-Each body is carried by one pose ``motion(q) · nominal motion along or about the displaced axis``; seen from the
-workpiece the tool tip is where the poses from the tool to the bed put it, and back through those up to the workpiece.
+is offset, and whatever it carries moves a little in all six degrees of freedom along with its position. Each body is
+carried by one pose ``motion(q) · nominal motion along or about the displaced axis``; seen from the workpiece the tool
+tip is where the poses from the tool to the bed put it, and back through those up to the workpiece.
 
 All bodies stand where they nominally do when all axes are at 0: there the machine is referenced and measured from.
 """

@@ -38,18 +38,8 @@ def completed(
 ) -> Iterator[tuple[T, Any, BaseException | None]]:
     """Yield (item, result, exception) of ``task(common, item)`` in the order in which they end.
 
-    Parameters
-    ----------
-    task : callable
-        Importable by the workers.
-    common : object
-        Sent to each worker once.
-    items : list
-        One task each.
-    scheduler : str or None
-        Address of a Dask scheduler; None: workers of our own on this machine.
-    workers : int or None
-        How many of our own; None: one for each processor.
+    The workers can import the task; ``common`` is sent to each of them once. ``scheduler``: address of a Dask
+    scheduler; None: ``workers`` of our own on this machine, one for each processor if that is None too.
 
     Raises
     ------

@@ -48,26 +48,11 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class Spec:
-    """A sweep.
+    """A sweep as it was read from ``file``.
 
-    Attributes
-    ----------
-    file : Path
-        It was read from.
-    machines : tuple of Path
-        Lists as ``read_machine`` takes them, or FMUs.
-    trajectory : InputFile or Motion
-        Inputs of every run.
-    results : mapping of str to Reduction
-        By the name of their column.
-    vary : mapping of Setting to tuple of values
-        Every combination of them is run.
-    runs : tuple of mapping of Setting to value
-        With each of these; one that sets nothing if there are none.
-    cycle_time : float
-        s.
-    duration : float or None
-        s; None: as long as the trajectory is.
+    ``machines``: lists as ``read_machine`` takes them, or FMUs. ``trajectory``: inputs of every run; ``duration``: s,
+    None: as long as that is. ``results``: by the name of their column. Every combination of ``vary`` is run with each
+    of ``runs``; one that sets nothing if there are none. ``cycle_time``: s.
     """
 
     file: Path

@@ -32,14 +32,8 @@ Progress = Callable[[int, int], None]
 class Sweep:
     """Results of a sweep.
 
-    Attributes
-    ----------
-    table : DataFrame
-        A row a run, in the order of the specification: ``run``, what was varied, the results, ``findings``, ``error``.
-    varied : tuple of str
-        Columns of what was varied.
-    taken_over : int
-        Rows that were there already.
+    ``table`` has a row a run, in the order of the specification: ``run``, what was varied (columns ``varied``), the
+    results, ``findings``, ``error``. ``taken_over``: rows that were there already.
     """
 
     table: pd.DataFrame
@@ -142,20 +136,11 @@ def run_sweep(
     retry: bool = False,
     progress: Progress | None = None,
 ) -> Sweep:
-    """Run what is missing, and write the results.
+    """Run what is missing, and write the results to ``output``, ``.parquet`` or ``.csv``.
 
-    Parameters
-    ----------
-    spec, job : Spec, Job
-        A specification, and what ``job_of`` makes of it.
-    output : Path
-        ``.parquet`` or ``.csv``. Beside it lies a journal until the results are there.
-    scheduler, workers
-        As in ``cluster.completed``.
-    retry : bool
-        Try runs again that have failed before.
-    progress : callable
-        Told at the start and after every run.
+    Beside it lies a journal until the results are there. ``job`` is what ``job_of`` makes of the specification,
+    ``scheduler`` and ``workers`` are as in ``cluster.completed``. ``retry``: try runs again that have failed before.
+    ``progress`` is told at the start and after every run.
 
     Raises
     ------

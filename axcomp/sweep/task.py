@@ -37,18 +37,10 @@ MACHINES_KEPT = 8
 
 @dataclass(frozen=True)
 class Source:
-    """What a machine is made of; equal for equal content.
+    """What a machine is made of; equal for equal content, of which ``digest`` is.
 
-    Attributes
-    ----------
-    digest : str
-        Of everything in it.
-    start : str
-        What ``read_machine`` is to read among the files; "" for an FMU.
-    files : mapping of str to bytes
-        The lists by relative path, or the one FMU.
-    known : frozenset of str
-        Findings about the lists as they are: these are no news in a run.
+    ``start``: what ``read_machine`` is to read among the files, "" for an FMU; ``files``: the lists by relative path,
+    or the one FMU; ``known``: findings about the lists as they are: these are no news in a run.
     """
 
     digest: str

@@ -33,16 +33,9 @@ def targets(node: ast.AST) -> list[ast.expr]:
 class _Facts:
     """What one function does by itself, and what it inherits from those it calls.
 
-    Attributes
-    ----------
-    calls : list
-        Its calls of other functions: the function, and its parameters' names with the roots of the arguments.
-    aliases : list of tuple of str
-        Locals that are assigned from a path, with the root of the path.
-    written : set of str
-        Names it writes through.
-    reads, writes : set of str
-        Fields that it, or a function it calls, loads and stores.
+    ``calls``: its calls of other functions, with their parameters' names and the roots of the arguments; ``aliases``:
+    locals that are assigned from a path, with its root; ``written``: names it writes through; ``reads`` and ``writes``:
+    fields that it, or a function it calls, loads and stores.
     """
 
     calls: list[tuple[Function, list[tuple[str, str]]]]
@@ -67,13 +60,7 @@ class _Facts:
 
 
 class Effects:
-    """Effects of all functions of a program.
-
-    Attributes
-    ----------
-    written_fields : set of str
-        Names of all fields that are assigned anywhere.
-    """
+    """Effects of all functions of a program; ``written_fields``: all that are assigned anywhere."""
 
     def __init__(self, program: Program) -> None:
         self._program = program

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from .effects import Effects
 from .kinds import struct_field
-from .program import Constant, Definition, Function, Program, Record
+from .program import Constant, Definition, Function, Program, Struct
 from .source import Module, read_modules
 from .statements import Body, prototype
 from .subset import Report
@@ -49,18 +49,11 @@ class Translation(NamedTuple):
 
 
 def translate(folder: Path, exports: Sequence[str], *, name: str = "kernel", prefix: str = "axcomp_") -> Translation:
-    """Translate the modules in ``folder`` that the exported functions need.
+    """Translate the modules in ``folder`` that the exported functions need, to ``name.c`` and ``name.h``.
 
-    Parameters
-    ----------
-    folder : Path
-        A package of restricted Python with the run-time module ``record``.
-    exports : sequence of str
-        Functions that other C code may call; whatever they do not reach is checked, but not written.
-    name : str
-        The files will be called ``name.c`` and ``name.h``.
-    prefix : str
-        What the exported functions' names in C begin with.
+    The folder is a package of restricted Python with the run-time module ``record``. ``exports``: functions that other
+    C code may call; whatever they do not reach is checked, but not written. ``prefix``: what their names in C begin
+    with.
 
     Raises TranslationError with everything that is outside the subset.
     """
@@ -139,7 +132,7 @@ def _source(program: Program, effects: Effects, bodies: dict[str, list[str]], na
 
 def _in_header(definition: Definition) -> bool:
     """Whether other C files see it: records, and constants that are not private to their module."""
-    return isinstance(definition, Record) or (isinstance(definition, Constant) and not definition.name.startswith("_"))
+    return isinstance(definition, Struct) or (isinstance(definition, Constant) and not definition.name.startswith("_"))
 
 
 def _section(writer: Writer, module: Module, *, described: bool) -> None:
@@ -165,7 +158,7 @@ def _lead_in(writer: Writer, definition: Definition) -> None:
         writer.remark("\n".join(notes))
 
 
-def _describe(writer: Writer, definition: Function | Record, *, first_only: bool = False) -> None:
+def _describe(writer: Writer, definition: Function | Struct, *, first_only: bool = False) -> None:
     """Write a docstring, or its first paragraph, as a comment."""
     text = ast.get_docstring(definition.node)
     if text:
@@ -188,7 +181,7 @@ def _write_definition(writer: Writer, definition: Definition) -> None:
         note = _note(definition.module, definition.node, definition.module.tree.body)
         notes = "\n".join(filter(None, [definition.origin, note]))
         writer.write(f"#define {definition.c_name} {definition.text}", notes)
-    elif isinstance(definition, Record):
+    elif isinstance(definition, Struct):
         _describe(writer, definition)
         writer.write("typedef struct {")
         writer.depth += 1

@@ -48,20 +48,9 @@ _HINTS = {
 
 @dataclass(frozen=True)
 class Text:
-    """An expression in C.
+    """An expression in C: what C writes, the precedence of its outermost operator, its type.
 
-    Attributes
-    ----------
-    c : str
-        What C writes.
-    level : int
-        Precedence of its outermost operator.
-    kind : Type
-        Its type.
-    value : int, float, bool or None
-        Its value where the translator knows it.
-    pointer : bool
-        A record that is reached through a pointer.
+    ``value``: where the translator knows it. ``pointer``: a record that is reached through a pointer.
     """
 
     c: str
@@ -96,10 +85,7 @@ def operator_of(node: ast.AST, kind: ast.operator, left: Type, right: Type) -> t
 class Expressions:
     """Translates the expressions of one function.
 
-    Attributes
-    ----------
-    kinds : dict of str to Type or None
-        The locals known so far; None marks one whose assignment was refused.
+    ``kinds``: the locals known so far; None marks one whose assignment was refused.
     """
 
     def __init__(self, program: Program, module: Module, kinds: dict[str, Type | None]) -> None:

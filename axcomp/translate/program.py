@@ -62,7 +62,7 @@ class Constant:
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class Struct:
     """A dataclass: a struct in C."""
 
     name: str
@@ -94,7 +94,7 @@ class Alias:
     module: Module
 
 
-Definition: TypeAlias = Constant | Record | Function
+Definition: TypeAlias = Constant | Struct | Function
 Entity: TypeAlias = Definition | Alias | Intrinsic
 
 
@@ -120,22 +120,10 @@ def check_range(node: ast.AST, value: Number) -> Number:
 
 @dataclass
 class Program:
-    """All definitions of the modules.
+    """All definitions of the modules, which are in order of dependency; what is refused goes to the report.
 
-    Attributes
-    ----------
-    modules : sequence of Module
-        In order of dependency.
-    exports : sequence of str
-        Functions that other C code may call.
-    prefix : str
-        What their names in C begin with.
-    report : Report
-        Takes what is refused.
-    names : dict of str to dict
-        For each module the names it can use.
-    definitions : list
-        Constants, records and functions in the order of the source.
+    ``exports``: functions that other C code may call; ``prefix``: what their names in C begin with; ``names``: for each
+    module those it can use; ``definitions``: constants, records and functions in the order of the source.
     """
 
     modules: Sequence[Module]
@@ -158,7 +146,7 @@ class Program:
                     for name in _bound_by(node):
                         self.names[module.name].setdefault(name, BROKEN)
         for definition in self.definitions:
-            if isinstance(definition, Record):
+            if isinstance(definition, Struct):
                 self._check_fields(definition)
 
     def entity(self, module: Module, node: ast.expr) -> Entity | None:
@@ -172,10 +160,10 @@ class Program:
         """Return what has a name at C's file scope."""
         return self._by_c_name.get(name_in_c)
 
-    def record_of(self, kind: RecordType) -> Record:
+    def record_of(self, kind: RecordType) -> Struct:
         """Return the record of a type."""
         record = self._by_c_name[kind.name]
-        assert isinstance(record, Record)
+        assert isinstance(record, Struct)
         return record
 
     def functions(self) -> list[Function]:
@@ -189,7 +177,7 @@ class Program:
         if isinstance(node, ast.Constant) and node.value is None:
             return Scalar.NONE
         entity = self.entity(module, node)
-        if isinstance(entity, Record):
+        if isinstance(entity, Struct):
             return RecordType(entity.c_name)
         if isinstance(entity, Alias):
             return entity.kind
@@ -266,8 +254,8 @@ class Program:
         check_name(node, definition.name, file_scope=True)
         other = self._by_c_name.get(definition.c_name)
         if other:
-            place = f"{other.module.file}:{other.node.lineno}"
-            raise RefusedError(node, f"{definition.name} would be the same name in C as {other.name} at {place}")
+            line = f"{other.module.file}:{other.node.lineno}"
+            raise RefusedError(node, f"{definition.name} would be the same name in C as {other.name} at {line}")
         self._by_c_name[definition.c_name] = definition
         self.names[definition.module.name][definition.name] = definition
         self.definitions.append(definition)
@@ -300,7 +288,7 @@ class Program:
             raise RefusedError(node, f"{node.name} is no record: write @dataclass(slots=True)")
         if node.bases or node.keywords:
             raise RefusedError(node, f"{node.name} has bases: a record stands alone")
-        record = Record(node.name, c_name(node.name), {}, module, node)
+        record = Struct(node.name, c_name(node.name), {}, module, node)
         for item in node.body:
             with self.report.catching(module.file):
                 match item:
@@ -321,7 +309,7 @@ class Program:
             raise RefusedError(node, f"{node.name} has no fields: C has no empty struct")
         self._define(record)
 
-    def _check_fields(self, record: Record) -> None:
+    def _check_fields(self, record: Struct) -> None:
         """Refuse fields that are pointers, and those called like a constant: C would put the number in their place."""
         module = record.module
         for item in record.node.body:
