@@ -23,8 +23,7 @@ from ..model.machine import CYCLE_TIME, Machine
 from ..plant.fmu import package_plant, plant_variables
 from .coupling import BATCH, COMMANDS, COMPENSATION, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
-from .trials import VOLUMETRIC, Trial, name_of, trials_of
-from .volume import TOOL_LENGTH, volumetric_trials
+from .trials import TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
 
 PROCESSES = 2
 """That run the trials side by side."""

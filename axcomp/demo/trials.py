@@ -2,7 +2,9 @@
 
 Geometric errors are looked at where the axes stand, 60 ms after they arrived, so that following errors are gone; every
 stop is approached from a known side, as in ISO 230-2. Crosstalk is looked at while the master changes its speed and the
-slave moves slowly, friction at the reversals of a circle (ISO 230-4).
+slave moves slowly, friction at the reversals of a circle (ISO 230-4). In the volumetric trials the tool tip goes over a
+body diagonal (ISO 230-6), and over a turn or swing of each rotary axis; it is looked at where the axes stand, and axes
+that do not move stand off the middle, so that all errors act.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from ..engine.motion import Array, Course, Limits, Setpoints, move
 from ..interface.variables import identifier
 from ..kinds import KIND_NAMES, KINDS, Crosstalk, Plane
 from ..model.machine import Axis, Machine
+from ..model.volumetric import LINEAR
 
 Cycles = npt.NDArray[np.intp]
 
@@ -34,6 +37,15 @@ SLOW, FAST = 60.0, 260.0
 """Speeds of the master in the crosstalk trial, mm/s."""
 LATENCY = 2
 """Cycles by which the drives' reference, the mean of two setpoints, lags the raw setpoint in the coupled FMUs."""
+
+TOOL_LENGTH = 120.0
+"""Of the volumetric trials, mm."""
+ASIDE = 0.65
+"""Where axes stand that do not move, as a share of their range."""
+STOPS_OF_TURN = 24
+STANDSTILL = 0.2
+"""Before the tip is looked at, s: a linear axis that only follows its correction sticks for a while."""
+TURNING = Limits(180.0, 1500.0, 4e4)
 
 VOLUMETRIC = "volumetric"
 TCP = "TCP"
@@ -218,6 +230,37 @@ class Stage:
                     along = [node[error.arguments.index(letters[0])] for node in error.nodes]
                     return min(along), max(along)
         return -100.0, 100.0
+
+
+def volumetric_trials(machine: Machine, cycle_time: float) -> Iterator[Trial]:
+    """Yield the trials of a machine; none if it has no volumetric compensation."""
+    stage = Stage(machine, cycle_time)
+    taking_part = {number: letter for v in machine.volumetric for letter, number in v.axes if letter in v.chain}
+    axes = [axis for axis in machine.axes if axis.number in taking_part]
+    linear = [axis for axis in axes if taking_part[axis.number] in LINEAR]
+    if linear:
+        yield _standing(stage, linear, STOPS, RAPID)
+    for axis in axes:
+        if axis not in linear:
+            # A full turn ends where it began: the seam of the tables lies in between.
+            yield _standing(stage, [axis], STOPS_OF_TURN, TURNING, closed=axis.modulo is not None)
+
+
+def _standing(stage: Stage, axes: Sequence[Axis], stops: int, limits: Limits, *, closed: bool = False) -> Trial:
+    """Return the trial in which axes go together from one end of their ranges to the other, stop by stop."""
+    moving = tuple(name_of(axis) for axis in axes)
+    # A share of the step inside the ends, so that the stops fall between the points of the tables.
+    targets = [_at(stage, moving, (stop + 0.37) / stops) for stop in range(stops + closed)]
+    course = Course({**_at(stage, stage.spans, ASIDE), **targets[0]}, stage.cycle_time)
+    read = []
+    for target in targets:
+        course.move(target, limits)
+        read.append(settle(course, STANDSTILL))
+    return Trial(VOLUMETRIC, course.setpoints(), {TCP: np.array(read)}, moving)
+
+
+def _at(stage: Stage, names: Sequence[str] | Mapping[str, object], share: float) -> dict[str, float]:
+    return {name: low + share * (high - low) for name, (low, high) in stage.spans.items() if name in names}
 
 
 def settle(course: Course, duration: float = SETTLING) -> int:

@@ -23,6 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..model.quantity import symbol
 from .positioning import Positioning
 from .uncertainty import Conditions
 
@@ -128,7 +129,7 @@ class Iso230Result:
         columns = {
             "n↑": self.count_up,
             "n↓": self.count_down,
-            **{symbol: getattr(self, name) for name, symbol in OF_TARGETS.items()},
+            **{written: getattr(self, name) for name, written in OF_TARGETS.items()},
             "U(x̄↑)": mean_uncertainty(self.s_up, self.count_up),
             "U(x̄↓)": mean_uncertainty(self.s_down, self.count_down),
         }
@@ -157,10 +158,38 @@ class Iso230Result:
         }
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
-        from .picture import plot
+        """Draw mean deviations in both directions with bands of ±2s and the single readings, as the standard does.
 
-        return plot(self, ax)
+        It goes into ``ax``, or into a new figure; return the axes.
+        """
+        from ..plot.style import DOWN, UP, labelled, new_figure  # loads Matplotlib
+
+        ax = new_figure().add_subplot() if ax is None else ax
+        sides = ((UP, 1, "↑", self.mean_up, self.s_up), (DOWN, -1, "↓", self.mean_down, self.s_down))
+        for colour, direction, arrow, mean, s in sides:
+            there = ~np.isnan(mean)
+            if not there.any():
+                continue
+            chosen = self.readings.directions == direction
+            targets, deviations = self.readings.targets[chosen], self.readings.deviations[chosen]
+            ax.plot(targets, deviations, ".", color=colour, ms=3.5, alpha=0.35)
+            known = there & ~np.isnan(s)
+            if known.any():
+                x, low, high = self.positions[known], (mean - 2.0 * s)[known], (mean + 2.0 * s)[known]
+                ax.fill_between(x, low, high, color=colour, alpha=0.13, lw=0, label=f"x̄{arrow} ± 2s{arrow}")
+                for edge in (low, high):
+                    ax.plot(x, edge, color=colour, lw=0.7, alpha=0.7)
+            ax.plot(self.positions[there], mean[there], "o-", color=colour, ms=4, lw=1.4, label=f"x̄{arrow}")
+        if np.any(~np.isnan(self.mean)):
+            ax.plot(self.positions, self.mean, "--", color="0.25", lw=1.1, label="x̄")
+        ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+        shown = {SYMBOLS[name]: getattr(self, name) for name in ("A", "R", "E", "M", "B")}
+        figures = [f"{name} = {value:.1f}" for name, value in shown.items() if not math.isnan(value)]
+        title = f"Positioning of axis {self.axis}" if self.axis else "Positioning"
+        title += f":  {',  '.join(figures)} {self.unit}" if figures else ""
+        ax.legend(loc="best", ncols=3, fontsize=10, framealpha=0.9)
+        position = f"target position [{symbol(self.position_unit)}]"
+        return labelled(ax, title, position, f"deviation, actual − target [{self.unit}]")
 
     def __repr__(self) -> str:
         figures = ", ".join(

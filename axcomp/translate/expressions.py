@@ -7,7 +7,9 @@ Whatever Python and C would evaluate differently is refused, above all an int wh
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from .kinds import NUMBERS, ArrayType, RecordType, Scalar, Type, VecType, element_of
 from .program import Constant, Function, Intrinsic, Number, Program, check_range, fold
@@ -91,33 +93,25 @@ class Expressions:
     def __init__(self, program: Program, module: Module, kinds: dict[str, Type | None]) -> None:
         self._program, self._module = program, module
         self.kinds = kinds
+        self._by_kind: dict[type[ast.expr], Callable[[Any], Text]] = {
+            ast.Constant: self._literal,
+            ast.Name: self._name,
+            ast.Attribute: self._attribute,
+            ast.Subscript: self._element,
+            ast.UnaryOp: self._unary,
+            ast.BinOp: self._binary,
+            ast.Compare: self._comparison,
+            ast.BoolOp: self._junction,
+            ast.IfExp: self._choice,
+            ast.Call: self._call,
+        }
 
     def text(self, node: ast.expr) -> Text:
         """Translate any expression."""
-        match node:
-            case ast.Constant():
-                return self._literal(node)
-            case ast.Name():
-                return self._name(node)
-            case ast.Attribute():
-                return self._attribute(node)
-            case ast.Subscript():
-                return self._element(node)
-            case ast.UnaryOp():
-                return self._unary(node)
-            case ast.BinOp():
-                return self._binary(node)
-            case ast.Compare():
-                return self._comparison(node)
-            case ast.BoolOp(op=kind, values=values):
-                if isinstance(kind, ast.And):
-                    return Text(" && ".join(self.condition(value).at(AND) for value in values), AND, Scalar.BOOL)
-                return Text(" || ".join(self.condition(value).at(BIT_OR) for value in values), OR, Scalar.BOOL)
-            case ast.IfExp(test=test, body=body, orelse=orelse):
-                return self._choice(node, self.condition(test), self.text(body), self.text(orelse))
-            case ast.Call():
-                return self._call(node)
-        raise outside(node)
+        translate = self._by_kind.get(type(node))
+        if translate is None:
+            raise outside(node)
+        return translate(node)
 
     def of(self, node: ast.expr, kind: Type, what: str) -> Text:
         """Translate an expression whose type must be ``kind``; ``what`` says what it is for."""
@@ -235,7 +229,12 @@ class Expressions:
             left = right
         return parts[0] if len(parts) == 1 else Text(_AND_IN_CHAIN.join(part.c for part in parts), AND, Scalar.BOOL)
 
-    def _choice(self, node: ast.IfExp, test: Text, body: Text, orelse: Text) -> Text:
+    def _junction(self, node: ast.BoolOp) -> Text:
+        sign, level, inner = (" && ", AND, AND) if isinstance(node.op, ast.And) else (" || ", OR, BIT_OR)
+        return Text(sign.join(self.condition(value).at(inner) for value in node.values), level, Scalar.BOOL)
+
+    def _choice(self, node: ast.IfExp) -> Text:
+        test, body, orelse = self.condition(node.test), self.text(node.body), self.text(node.orelse)
         if body.kind not in NUMBERS or body.kind != orelse.kind:
             raise RefusedError(
                 node, f"one side is {body.kind}, the other {orelse.kind}: both are the same kind of number"

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from axcomp.demo.evaluation import Trace, label, outcomes, table
-from axcomp.demo.trials import TCP, VOLUMETRIC, Trial, trials_of
-from axcomp.demo.volume import volumetric_trials
+from axcomp.demo.trials import TCP, VOLUMETRIC, Trial, trials_of, volumetric_trials
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Machine
