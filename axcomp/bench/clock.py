@@ -39,13 +39,7 @@ class Sample:
 
 
 def sample(
-    name: str,
-    unit: str,
-    work: Callable[[], object],
-    *,
-    repeats: int = 7,
-    each: int = 1,
-    goal: float | None = None,
+    name: str, unit: str, work: Callable[[], object], *, repeats: int = 7, each: int = 1, goal: float | None = None
 ) -> Sample:
     """Run ``work`` a few times after a warm-up; ``each`` is the number of cycles that one call runs."""
     scale = {"s": 1.0, "ms": 1e3, "µs": 1e6}[unit] / each

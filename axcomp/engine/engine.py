@@ -38,16 +38,9 @@ CHUNK = 4096
 
 @dataclass(frozen=True)
 class Result:
-    """Outputs over a trajectory.
+    """Outputs over a trajectory: float, int or bool by name, shape (n,), and the instants of the cycles, s.
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        Instants of the cycles, s.
-    values : mapping of str to ndarray, shape (n,)
-        Output variables by name: float, int or bool.
-    notices : tuple of str
-        What the run has to say, a sentence each.
+    ``notices``: what the run has to say, a sentence each.
     """
 
     time: NDArray[np.float64]

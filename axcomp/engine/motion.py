@@ -26,13 +26,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Setpoints:
-    """What a controller commands one axis.
-
-    Attributes
-    ----------
-    position, velocity, acceleration : array, shape (cycles,)
-        In mm or °, per s and s².
-    """
+    """What a controller commands one axis, shape (cycles,) each, in mm or °, per s and s²."""
 
     position: Array
     velocity: Array

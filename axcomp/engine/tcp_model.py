@@ -25,10 +25,7 @@ _STEP = 1e-4
 class TcpModel:
     """A machine with a volumetric compensation whose errors can be given.
 
-    Parameters
-    ----------
-    volumetric : Volumetric
-        Its chain, centres, directions, offsets and so on, and the errors that are known.
+    ``volumetric`` has its chain, centres, directions, offsets and so on, and the errors that are known.
     """
 
     def __init__(self, volumetric: Volumetric) -> None:

@@ -199,19 +199,10 @@ class Iso230Result:
 
 
 def evaluate(measurement: Positioning, conditions: Conditions | None = None) -> Iso230Result:
-    """Evaluate a positioning measurement.
+    """Evaluate a positioning measurement of any number of runs; targets may be missing in some.
 
-    Parameters
-    ----------
-    measurement : Positioning
-        Any number of runs; targets may be missing in some.
-    conditions : Conditions, optional
-        Of the test; with them the result has expanded uncertainties.
-
-    Raises
-    ------
-    ValueError
-        Conditions were given for a rotary axis.
+    With the conditions of the test the result has expanded uncertainties. ValueError if they are given for a rotary
+    axis.
     """
     if conditions is not None and measurement.unit != "mm":
         raise ValueError("conditions of a test, and uncertainties from them, are for linear axes only")

@@ -31,28 +31,13 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False)
 class Positioning:
-    """Readings at targets, in any order.
+    """Readings at targets, in any order; arrays have shape (n,).
 
-    Attributes
-    ----------
-    targets : array, shape (n,)
-        Where each reading was taken, mm or °.
-    runs : array of int, shape (n,)
-        Number of the run, counted from 1 in each direction.
-    directions : array of int, shape (n,)
-        1 or −1: from which side the target was approached.
-    deviations : array, shape (n,)
-        Actual − target, µm or ″.
-    unit : str
-        Of the targets: ``mm`` or ``deg``.
-    axis : str
-        Its name, "" if the file does not say.
-    source : str
-        The file or files.
-    deviating_unit : str
-        Where another axis than the one at the targets deviates, what that one counts in; else "".
-    details : mapping of str to str
-        What else the file says about the measurement.
+    ``targets``: where each reading was taken, in ``unit``, ``mm`` or ``deg``; ``runs``: number of the run, counted from
+    1 in each direction; ``directions``: 1 or −1, from which side the target was approached; ``deviations``: actual −
+    target, µm or ″. ``axis`` is its name, "" if the file does not say, ``source`` the file or files, ``details`` what
+    else the file says. Where another axis than the one at the targets deviates, ``deviating_unit`` is what that one
+    counts in; else "".
     """
 
     targets: Array
@@ -102,12 +87,8 @@ class Positioning:
 def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Positioning:
     """Read a measurement: Renishaw ``.rtl``, else a table with ``target, run, direction, deviation``.
 
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-    of_another_axis : bool
-        Not the axis at the targets deviates but one that follows it; targets may then be angles and deviations lengths.
+    ``of_another_axis``: not the axis at the targets deviates but one that follows it; targets may then be angles and
+    deviations lengths.
 
     Raises
     ------

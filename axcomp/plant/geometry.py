@@ -16,12 +16,8 @@ from .curves import MILLI, Curve, Surface
 class MotionState:
     """Where all axes are and how they move, in the order of the plant's axes.
 
-    Attributes
-    ----------
-    positions, velocities, accelerations : list of float
-        As the encoders see them: mm or °, per s, per s².
-    approach : list of float
-        −1 … 1: from which side the play of each axis was taken up last; ±1 is steady motion in that direction.
+    Positions, velocities and accelerations are what the encoders see: mm or °, per s, per s². ``approach``, −1 … 1:
+    from which side the play of each axis was taken up last; ±1 is steady motion in that direction.
     """
 
     def __init__(self, count: int) -> None:
@@ -86,10 +82,8 @@ def deflection(description: Mapping[str, Any], names: Sequence[str]) -> ErrorOf:
 class AxisErrors:
     """All geometric errors of one axis.
 
-    Attributes
-    ----------
-    lost_motion : float
-        Travel after a reversal over which the axis takes up its play, mm or °: the pitch error changes its curve there.
+    ``lost_motion``: travel after a reversal over which the axis takes up its play, mm or °: the pitch error changes its
+    curve there.
     """
 
     def __init__(self, description: Mapping[str, Any], axis: int, names: Sequence[str]) -> None:

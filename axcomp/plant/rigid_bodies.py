@@ -24,14 +24,10 @@ SHIFTS, TURNS = ("x", "y", "z"), ("a", "b", "c")
 class Joint:
     """An axis between two bodies, given in the machine's coordinates.
 
-    Parameters
-    ----------
-    description : Mapping
-        ``direction`` of the axis; ``center``, a point on it (rotary axes); ``offset`` in µm by which a rotary axis lies
-        beside that point; ``tilt`` of the direction in µrad; and ``motion``, curves over the axis' position, ``x``,
-        ``y``, ``z`` in µm and ``a``, ``b``, ``c`` in µrad. What is not given is 0.
-    rotary : bool
-        Turns about its direction rather than travel along it.
+    The description has ``direction`` of the axis; ``center``, a point on it (rotary axes); ``offset`` in µm by which a
+    rotary axis lies beside that point; ``tilt`` of the direction in µrad; and ``motion``, curves over the axis'
+    position, ``x``, ``y``, ``z`` in µm and ``a``, ``b``, ``c`` in µrad. What is not given is 0. A rotary one turns
+    about its direction rather than travel along it.
     """
 
     def __init__(self, description: Mapping[str, Any], rotary: bool) -> None:
@@ -85,16 +81,10 @@ class _Deviation:
 class RigidBodies:
     """The chain of joints.
 
-    Parameters
-    ----------
-    description : Mapping
-        ``workpiece``: names of the axes that carry the workpiece, ``tool``: of those that carry the tool, both in the
-        order from workpiece to tool; ``axes``: a description of each (see ``Joint``); ``tool_position``: where the tool
-        would be with length 0 when all axes are at 0, mm; ``tool_direction``: from there to the tip.
-    names : sequence of str
-        The plant's axes, in the order of all positions here.
-    rotary : sequence of bool
-        Which of them are.
+    The description has ``workpiece``: names of the axes that carry the workpiece, ``tool``: of those that carry the
+    tool, both in the order from workpiece to tool; ``axes``: a description of each (see ``Joint``); ``tool_position``:
+    where the tool would be with length 0 when all axes are at 0, mm; ``tool_direction``: from there to the tip.
+    ``names`` are the plant's axes, in the order of all positions here, ``rotary`` tells which of them are.
     """
 
     def __init__(self, description: Mapping[str, Any], names: Sequence[str], rotary: Sequence[bool]) -> None:
@@ -115,12 +105,7 @@ class RigidBodies:
     def place(self, point: Vector, positions: Sequence[float]) -> Vector:
         """Return where a point that moves with the tool is, seen from the workpiece, mm.
 
-        Parameters
-        ----------
-        point : (float, float, float)
-            Where it is when all axes are at 0, mm.
-        positions : sequence of float
-            Of all axes, mm or °.
+        ``point``: where it is when all axes are at 0, mm; ``positions``: of all axes, mm or °.
         """
         return self._seen(point, positions, Joint.actual)
 

@@ -24,12 +24,8 @@ REFLECTORS = ((150.0, 0.0, -120.0), (-150.0, 0.0, -120.0), (0.0, 150.0, -250.0),
 class IsoErrors(NamedTuple):
     """The errors of one axis; the motion has both kinds added.
 
-    Attributes
-    ----------
-    position : dict of str to float
-        Position errors by name (``B0X`` …), mm or rad.
-    component : dict of str to list of float
-        Component errors by name (``EXX`` …) at each target, mm or rad.
+    ``position`` has position errors by name (``B0X`` …), ``component`` component errors by name (``EXX`` …) at each
+    target; mm or rad.
     """
 
     position: dict[str, float]

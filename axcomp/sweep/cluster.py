@@ -32,11 +32,7 @@ class ClusterError(OSError):
 
 
 def completed(
-    task: Callable[[Any, T], Any],
-    common: Any,
-    items: list[T],
-    scheduler: str | None = None,
-    workers: int | None = None,
+    task: Callable[[Any, T], Any], common: Any, items: list[T], scheduler: str | None = None, workers: int | None = None
 ) -> Iterator[tuple[T, Any, BaseException | None]]:
     """Yield (item, result, exception) of ``task(common, item)`` in the order in which they end.
 
