@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..analysis.judgement.judge import Judgement, judge
+from ..analysis.judgement.judging import Judgement, judge
 from ..lists import Reading
 from ..model.machine import CYCLE_TIME, Machine
 

@@ -33,7 +33,7 @@ from .crosstalk_data import (
     Crosstalk,
     CrosstalkCurve,
 )
-from .crosstalk_tests import adaptation_axes, compile_tests, is_used, read_curve, read_tests
+from .crosstalk_tests import adaptation_axes, compile_tests, corrections_of, is_used, read_curve, read_tests
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import (
     AXIS_NUMBER,
@@ -119,7 +119,8 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
             DataType.UNS32,
             0,
             isg("00083"),
-            range=f"[0, {TESTS_MAX}]",
+            range=f"[0, {TESTS_MAX})",
+            usable=f"[0, {TESTS_MAX}]",
         ),
         Parameter(DIRECTIONS, "Corrections differ by the master's direction", DataType.BOOLEAN, 0, isg("00084")),
         _test("position1", "Position of adaptation axis 1", "00085"),
@@ -141,18 +142,21 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
         ),
         position(CURVE[1], "Correction of the slave", twincat("00067"), index_max=(4,)),
     )
+    values = ("corrections", "tests", *list(TEST_FIELDS)[2:])
     columns = (*TEST_FIELDS.values(), *CURVE)
     sizes = (MAX_POINTS, LAST_INDEX)
     at_standstill = True
     codes = {
         "AXC-VARIANT": (
             Severity.WARNING,
-            "Entries of both variants of the crosstalk compensation; the new one counts",
+            "Entries of both variants of the crosstalk compensation; the new one counts if it has tests",
         ),
-        "AXC-TESTS": (Severity.ERROR, "Too few crosstalk tests, or all in one line"),
+        "AXC-TESTS": (Severity.ERROR, "Too few crosstalk tests, one that has no entry, or all in one line or place"),
         "AXC-TESTS-FEW": (Severity.WARNING, "Fewer crosstalk tests than the mode should have"),
         "AXC-TESTS-TWICE": (Severity.WARNING, "Two crosstalk tests at the same place; the later one counts"),
         "AXC-ACCELERATION": (Severity.ERROR, "The acceleration or deceleration of the crosstalk tests is missing"),
+        "AXC-DIRECTION": (Severity.WARNING, "Crosstalk corrections for negative motion that nothing uses"),
+        "AXC-ADAPTATION": (Severity.WARNING, "Both adaptation axes of the crosstalk compensation are the same"),
         "AXC-AT-REST": (Severity.WARNING, "The crosstalk correction at acceleration 0 is not 0"),
     }
     notice = "the adaptation axes of its crosstalk compensation have left the tests' positions"
@@ -160,18 +164,19 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
     def read(self, source: TableReader) -> Crosstalk | CrosstalkCurve | None:
         """Return the compensation, None where it cannot be used. The names of the entries decide the variant."""
         values = source.values
-        new = any(values.cells(name) for name in NEW_ONLY)
+        tests = any(values.cells(name) for name in TEST_FIELDS.values())
         old = next((name for name in (*CURVE, LAST_INDEX) if values.cells(name)), None)
         if source.axis.type is not AxisType.TRANSLATORY:
             message = f"Axis {source.axis.number} is not translatory, as crosstalk needs; the compensation stays off."
             source.note("AXC-AXIS-TYPE", MASTER, message)
             return None
-        if new and old:
-            message = (
-                "There are entries of both variants of the crosstalk compensation; those of the old one are not used."
-            )
-            source.note("AXC-VARIANT", old, message, *min(values.cells(old)))
-        return read_tests(source) if new else read_curve(source)
+        stray = old if tests else next((name for name in NEW_ONLY if values.cells(name)), None)
+        if old and stray:
+            which = "old" if tests else "new"
+            both = "There are entries of both variants of the crosstalk compensation"
+            message = f"{both}; those of the {which} one are not used."
+            source.note("AXC-VARIANT", stray, message, *min(values.cells(stray)))
+        return read_tests(source) if tests or not old else read_curve(source)
 
     def write(self, compensation: Crosstalk | CrosstalkCurve, axis: Axis, lines: EntryWriter) -> None:
         """Append the entries."""
@@ -256,7 +261,9 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
             x = tuple(test.position1 for test in tests)
             return tuple(Curve(x, values, over[0], of, label=label, note=note) for label, values in states)
         places = tuple((test.position1, test.position2) for test in tests)
-        return tuple(Scatter(places, values, (over[0], over[1]), of, label, note) for label, values in states)
+        deciding = tuple(corrections_of(test) for test in tests)
+        pair = (over[0], over[1])
+        return tuple(Scatter(places, values, pair, of, label, note, deciding=deciding) for label, values in states)
 
     def ranges(
         self, compensation: Crosstalk | CrosstalkCurve, tables: tuple[Table, ...], machine: Machine

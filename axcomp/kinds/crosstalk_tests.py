@@ -13,7 +13,7 @@ from ..kernel.crosstalk import (
     CrosstalkTable,
 )
 from ..kernel.cycle import LARGEST
-from ..model.delaunay import triangulate
+from ..model.delaunay import triangulate, width
 from ..model.machine import AxisType
 from .compiling import AxisCompiler
 from .crosstalk_data import (
@@ -35,10 +35,15 @@ from .crosstalk_data import (
 )
 from .kind import TableReader
 
+THINNEST = 1e-3
+"""Narrowest strip, or shortest way, that tests may lie on, mm (semantics §8)."""
+
 
 def adaptation_axes(crosstalk: Crosstalk | CrosstalkCurve) -> tuple[int | None, ...]:
-    """Return the adaptation axes of the new variant, None where its mode needs none; none of the old one."""
-    return (crosstalk.adaptation1, crosstalk.adaptation2) if isinstance(crosstalk, Crosstalk) else ()
+    """Return the adaptation axes that the mode of the new variant uses, None where one lacks; none of the old one."""
+    if isinstance(crosstalk, CrosstalkCurve):
+        return ()
+    return (crosstalk.adaptation1, crosstalk.adaptation2)[: crosstalk.mode - 1]
 
 
 def _translatory(source: TableReader, name: str, purpose: str) -> Any:
@@ -72,6 +77,9 @@ def read_tests(source: TableReader) -> Crosstalk | None:
         if axis is None:
             return None
         adaptation[i] = axis.number
+    if mode == 3 and adaptation[0] == adaptation[1]:
+        message = f"Axis {adaptation[0]} is both adaptation axes: its tests can only lie in a line."
+        source.note("AXC-ADAPTATION", ADAPTATION[1], message)
     return Crosstalk(
         master=master.number,
         acceleration=acceleration,
@@ -87,23 +95,30 @@ def read_tests(source: TableReader) -> Crosstalk | None:
 
 
 def _tests(source: TableReader, mode: int) -> list[CrosstalkTest] | None:
-    """Return the tests that a mode uses, each at its own place; None if they are too few."""
+    """Return the tests that a mode uses, each at its own position; None if they are too few."""
     values = source.values
-    last = max((index for name in TEST_FIELDS.values() for (index,) in values.cells(name)), default=-1)
-    count = 1 if mode == 1 else values.integer(MAX_POINTS) or last + 1
-    if last < 0:
-        source.note("AXC-TESTS", MODE, "There are no crosstalk tests; the compensation stays off.")
+    given = {index for name in TEST_FIELDS.values() for (index,) in values.cells(name)}
+    count = 1 if mode == 1 else values.integer(MAX_POINTS) or max(given, default=-1) + 1
+    missing = [index for index in range(count) if index not in given]
+    if not given or missing:
+        what = f"Test {missing[0]} of {count} has no entry" if given else "There are no crosstalk tests"
+        source.note("AXC-TESTS", MAX_POINTS if given else MODE, f"{what}; the compensation stays off.")
         return None
-    used = [name for name in TEST_FIELDS if is_used(name, mode, values.flag(DIRECTIONS))]
+    both = values.flag(DIRECTIONS)
+    unused = [name for name in TEST_FIELDS.values() if name.endswith("_neg") and values.cells(name) and not both]
+    if unused:
+        message = f"{DIRECTIONS} is 0: the corrections for negative motion are not used, those for positive serve both."
+        source.note("AXC-DIRECTION", unused[0], message, *min(values.cells(unused[0])))
+    used = [name for name in TEST_FIELDS if is_used(name, mode, both)]
     columns = {name: source.column(TEST_FIELDS[name], count) for name in used}
     rows = [CrosstalkTest(**dict(zip(used, row, strict=True))) for row in zip(*columns.values(), strict=True)]
-    tests = _at_different_places(source, rows, TEST_FIELDS[used[0]])
+    tests = _at_different_positions(source, rows, TEST_FIELDS[used[0]])
     if mode == 2 and len(tests) == 2:
         message = "Mode 2 should have three tests at least; the two that are given are used."
         source.note("AXC-TESTS-FEW", MODE, message)
-    if len(tests) < mode or (mode == 3 and _in_line(tests)):
-        need = "two tests" if mode == 2 else "three tests that are not in a line"
-        message = f"Mode {mode} needs {need} at different places; the compensation stays off."
+    if len(tests) < mode or _in_line(tests, mode):
+        need = "two tests" if mode == 2 else "three tests that are not within 1 µm of a line"
+        message = f"Mode {mode} needs {need} at different positions; the compensation stays off."
         source.note("AXC-TESTS", MODE, message)
         return None
     return tests
@@ -116,20 +131,28 @@ def is_used(field: str, mode: int, velocity_dependent: bool) -> bool:
     return velocity_dependent or field.endswith("positive")
 
 
-def _at_different_places(source: TableReader, rows: list[CrosstalkTest], name: str) -> list[CrosstalkTest]:
-    """Keep the last test of each place."""
+def _at_different_positions(source: TableReader, rows: list[CrosstalkTest], name: str) -> list[CrosstalkTest]:
+    """Keep the last test at each position."""
     kept: dict[tuple[float, float], CrosstalkTest] = {}
     for index, test in enumerate(rows):
         if kept.pop((test.position1, test.position2), None) is not None:
-            message = "Two tests stand at the same place; the later one counts."
+            message = "Two tests stand at the same position; the later one counts."
             source.note("AXC-TESTS-TWICE", name, message, index)
         kept[(test.position1, test.position2)] = test
     return list(kept.values())
 
 
-def _in_line(tests: Sequence[CrosstalkTest]) -> bool:
-    """Whether the places span no triangle to interpolate over."""
-    return not triangulate([test.position1 for test in tests], [test.position2 for test in tests]).triangles
+def _in_line(tests: Sequence[CrosstalkTest], mode: int) -> bool:
+    """Whether the positions span nothing to interpolate over."""
+    x, y = ([test.position1 for test in tests], [test.position2 for test in tests])
+    if mode == 2:
+        return max(x) - min(x) < THINNEST
+    return mode == 3 and (width(x, y) < THINNEST or not triangulate(x, y).triangles)
+
+
+def corrections_of(test: CrosstalkTest) -> tuple[float, ...]:
+    """Return the four corrections of a test, in the order of the kernel's blocks."""
+    return (test.accelerate_positive, test.accelerate_negative, test.decelerate_positive, test.decelerate_negative)
 
 
 def read_curve(source: TableReader) -> CrosstalkCurve | None:
@@ -207,10 +230,10 @@ def _compile_two_adaptation_axes(tests: Sequence[CrosstalkTest], compiler: AxisC
         _append_tests(sorted(tests, key=lambda test: (test.position2, test.position1)), compiler, table)
         return
     table.variant = CROSSTALK_TRIANGLES
-    triangulation = triangulate([test.position1 for test in tests], [test.position2 for test in tests])
+    x1, x2 = [test.position1 for test in tests], [test.position2 for test in tests]
+    triangulation = triangulate(x1, x2, [corrections_of(test) for test in tests])
     compiler.require(len(triangulation.triangles) > 0, "crosstalk: mode 3 needs three tests that are not in a line")
-    table.x1 = compiler.append([test.position1 for test in tests])
-    table.x2 = compiler.append([test.position2 for test in tests])
+    table.x1, table.x2 = compiler.append(x1), compiler.append(x2)
     table.triangles = len(triangulation.triangles)
     table.triangle = compiler.append([float(i) for triangle in triangulation.triangles for i in triangle])
     table.edges = len(triangulation.edges)
@@ -220,7 +243,5 @@ def _compile_two_adaptation_axes(tests: Sequence[CrosstalkTest], compiler: AxisC
 
 def _append_tests(tests: Sequence[CrosstalkTest], compiler: AxisCompiler, table: CrosstalkTable) -> None:
     table.tests = len(tests)
-    table.values = compiler.append([test.accelerate_positive for test in tests])
-    compiler.append([test.accelerate_negative for test in tests])
-    compiler.append([test.decelerate_positive for test in tests])
-    compiler.append([test.decelerate_negative for test in tests])
+    blocks = [compiler.append(block) for block in zip(*map(corrections_of, tests), strict=True)]
+    table.values = blocks[0]

@@ -7,8 +7,8 @@ and compiled, and what it depends on. The kernel has a module of the same name w
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
 from ..kernel.compensations import CompensationTables
@@ -113,24 +113,36 @@ class EntryWriter(Protocol):
 
 @dataclass(frozen=True)
 class KindInput:
-    """An input of the FMU that only one kind has; it starts as the list says.
+    """An input of the FMU that only one kind has.
 
     Attributes
     ----------
+    identifier : int
+        In the block of value references of its axis.
     name : str
-        Behind the kind's: ``temperature.offset``; the field of the kind's record of inputs too.
-    field : str
-        Of the compensation, whose value it starts with.
-    unit : str
-        ``{}`` stands for mm or deg.
+        Behind the axis': ``temperature.offset``.
+    path : str
+        Of its field in the kernel's record of the kind's inputs.
     description : str
         One sentence without a full stop.
+    unit : str
+        ``{}`` stands for mm or deg.
+    field : str
+        Of the compensation, whose value it starts with; "": it starts with 0 or false.
+    boolean : bool
+        It is a Boolean.
+    present : callable
+        Tells whether a compensation has it; None stands for a kind that is activated without a table.
     """
 
+    identifier: int
     name: str
-    field: str
-    unit: str
+    path: str
     description: str
+    unit: str = ""
+    field: str = ""
+    boolean: bool = False
+    present: Callable[[Any], bool] = lambda _: True
 
 
 class Kind(ABC, Generic[C]):
@@ -145,8 +157,7 @@ class Kind(ABC, Generic[C]):
     word : str
         In NC commands: ``X[COMP ON CROSS]``.
     identifier : int
-        First of the identifiers of its variables in a block of value references: enable, active, correction, and those
-        of its own inputs.
+        First of the identifiers of its variables in a block of value references: enable, active, correction.
     adds_to : str
         ``setpoint``, or ``current`` of the motor.
     activator : Parameter
@@ -157,6 +168,8 @@ class Kind(ABC, Generic[C]):
         What their names begin with.
     parameters : tuple of Parameter
         All its entries, in the order of the manuals.
+    values : tuple of str
+        Fields of the compensation, and of records in it, that grow with what is compensated: a factor multiplies them.
     columns, sizes : tuple of str
         Entries whose presence, or whose value above 0, means that there is a table.
     reserves : str
@@ -172,7 +185,7 @@ class Kind(ABC, Generic[C]):
     inactive_code, no_table_code : str
         Of the findings about a table that nothing activates, and about an activated kind without a table.
     notice : str
-        What the user should know when the kernel says that its table has been left.
+        What the user should know once the kernel says so (``has_notice``).
     """
 
     name: ClassVar[str]
@@ -184,6 +197,7 @@ class Kind(ABC, Generic[C]):
     list_kind: ClassVar[ListKind] = ListKind.COMPENSATION
     prefix: ClassVar[str]
     parameters: ClassVar[tuple[Parameter, ...]]
+    values: ClassVar[tuple[str, ...]]
     columns: ClassVar[tuple[str, ...]] = ()
     sizes: ClassVar[tuple[str, ...]] = ()
     reserves: ClassVar[str] = ""
@@ -233,6 +247,11 @@ class Kind(ABC, Generic[C]):
         """Return over what, and from where to where, a compensation has values of its own; ``tables``: its own."""
         return ranges_of(tables) if tables[0].entry else []
 
+    def scaled(self, compensation: C, factor: float) -> C:
+        """Return a compensation that adds so many times as much."""
+        scaled: C = _times(compensation, self.values, factor)
+        return scaled
+
     def reserved(self, compensation: C | None, values: Values | None = None) -> int:
         """Return how many entries the controller keeps free for its table, at least 1.
 
@@ -256,6 +275,16 @@ class Kind(ABC, Generic[C]):
     def follows(self, compensation: C) -> bool:
         """Tell whether its value depends on what the kinds before it add."""
         return False
+
+
+def _times(value: Any, names: tuple[str, ...], factor: float) -> Any:
+    """Return a number times a factor; of a tuple all its items, of a record the fields with these names."""
+    if isinstance(value, tuple):
+        return tuple(_times(item, names, factor) for item in value)
+    if is_dataclass(value) and not isinstance(value, type):
+        own = [field.name for field in fields(value) if field.name in names]
+        return replace(value, **{name: _times(getattr(value, name), names, factor) for name in own})
+    return None if value is None else value * factor
 
 
 KIND_NAMES = tuple(fields_of(CompensationTables))

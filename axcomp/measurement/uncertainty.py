@@ -5,7 +5,7 @@ distributed between them: a range R contributes ``U = 2 · R / √12 = R/√3`` 
 
     U_DEVICE       = device · L                           calibration of the instrument, stated with k = 2
     U_MISALIGNMENT = misalignment² / (2 √3 L)             the cosine error is between 0 and misalignment² / 2L
-    U_M            = α · L · temperature_range / √3       the temperature of the machine is known within this range
+    U_M            = α · L · temperature_range / √3       how warm the machine is, is known within this range
     U_E            = α_range · L · |ΔT| / √3              α is known within this range, ΔT from 20 °C
     U_EVE          = drift / √3                           range of the readings of an axis at rest during the test
 
@@ -48,8 +48,8 @@ class Conditions:
 
     device: float = _condition("µm/m", "expanded uncertainty (k = 2) of the instrument")
     misalignment: float = _condition("mm", "how far instrument and axis may be out of line over the travel")
-    temperature_range: float = _condition("K", "range within which the machine's temperature is known")
-    temperature_offset: float = _condition("K", "machine's temperature minus 20 °C")
+    temperature_range: float = _condition("K", "range within which it is known how warm the machine is")
+    temperature_offset: float = _condition("K", "how much warmer than 20 °C the machine is")
     expansion: float = _condition("1e-6/K", "expansion coefficient of the machine's scale", 11.7)
     expansion_range: float = _condition("1e-6/K", "range within which that is known", 2.0)
     drift: float = _condition("µm", "environmental variation error E_VE: range of readings at rest")

@@ -22,6 +22,8 @@ def face(room: str, **modules: str) -> tuple[list[str], Callable[[str], Any], Ca
         The names that each of its modules offers, separated by blanks.
     """
     homes = {name: module for module, names in modules.items() for name in names.split()}
+    if shared := homes.keys() & modules.keys():
+        raise ValueError(f"{room}: {', '.join(shared)} would be hidden by the module of that name")
 
     def getattribute(name: str) -> Any:
         if name not in homes:

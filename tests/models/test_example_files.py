@@ -39,6 +39,13 @@ def test_input_and_expected_output_are_current(name: str, tmp_path: Path) -> Non
         assert path.read_bytes() == (models() / name / path.name).read_bytes()
 
 
+def test_what_is_activated_without_a_usable_table_has_outputs_and_does_nothing() -> None:
+    expected = read_csv(MANUALS / EXPECTED)
+    for kind in ("Y_ACHSE.leadscrew", "Z.cross"):
+        assert not np.any(expected[f"{kind}.active"])
+        assert not np.any(expected[f"{kind}.correction"])
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_every_model_is_complete(name: str) -> None:
     present = {path.name for path in (models() / name).iterdir()}

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ from scipy.interpolate import RegularGridInterpolator
 
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at, find_cell
+from axcomp.model.machine import ModuloRange
 from axcomp.model.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation
+from axcomp.runtime.compile import compile_tables
 from axcomp.runtime.runtime import Runtime
 
 Array = NDArray[np.float64]
@@ -27,14 +30,14 @@ def table(name: str, arguments: str, nodes: Array, values: Array, mode: Interpol
 def evaluate(tables: list[ErrorTable], positions: Array, letters: str) -> Array:
     """Return the errors of the tables at positions, shape (positions, tables)."""
     machine = machine_of(volumetric("XYZABC", errors=tuple(tables)))
-    compiled = Runtime(machine).tables
+    compiled, pool = compile_tables(machine)
     rows = []
     for row in positions:
         position = zeros(len(LETTERS))
         for letter, q in zip(letters, row.tolist(), strict=True):
             position[LETTERS.index(letter)] = q
         errors = zeros(len(ERRORS))
-        errors_at(compiled.pool, compiled.volumetric[0], position, errors)
+        errors_at(pool, compiled.volumetric[0], position, errors)
         rows.append([errors[ERRORS.index(table.name)] for table in tables])
     return np.array(rows)
 
@@ -84,11 +87,11 @@ def test_the_cell_of_a_position_is_found_however_unequal_the_knots_are(knots: li
     values = np.zeros(len(knots))
     values[0] = 0.1
     one = table("EXX", "X", np.array(knots)[:, None], values, Interpolation.GRID)
-    tables = Runtime(machine_of(volumetric("XYZ", errors=(one,)))).tables
+    tables, pool = compile_tables(machine_of(volumetric("XYZ", errors=(one,))))
     inside = [min(knots[0] + share * (knots[-1] - knots[0]), knots[-1]) for share in shares]
     expected = np.clip(np.searchsorted(knots, [*inside, *knots], side="right") - 1, 0, len(knots) - 2)
     block = tables.volumetric[0].block[0]
-    assert [find_cell(tables.pool, block, 0, x) for x in [*inside, *knots]] == expected.tolist()
+    assert [find_cell(pool, block, 0, x) for x in [*inside, *knots]] == expected.tolist()
 
 
 def test_a_constant_error_needs_no_argument() -> None:
@@ -116,6 +119,37 @@ def test_a_table_over_less_than_a_full_turn_is_not_folded() -> None:
     one = rotary_table(np.array([-90.0, 0.0, 90.0]))
     found = evaluate([one], np.array([[270.0], [-90.0], [90.0], [-400.0]]), "C")[:, 0]
     assert found.tolist() == [one.values[2], one.values[0], one.values[2], one.values[0]]
+
+
+@pytest.mark.parametrize(
+    ("nodes", "start"),
+    [((-90.0, 0.0, 90.0), -180.0), ((0.0, 90.0, 300.0), -30.0), ((350.0, 360.0, 370.0), 180.0), ((-30.0,), -210.0)],
+)
+def test_on_a_modulo_axis_it_is_folded_into_the_turn_centred_on_it(nodes: tuple[float, ...], start: float) -> None:
+    one = rotary_table(np.array(nodes))
+    machine = machine_of(volumetric("XYZABC", errors=(one,)))
+    axes = tuple(replace(a, modulo=ModuloRange(0.0, 360.0)) if a.name == "C" else a for a in machine.axes)
+    tables, pool = compile_tables(replace(machine, axes=axes))
+    q = np.array([*nodes, 350.0, 450.0, -270.0, 89.0, 179.0, 181.0, 720.5, -359.5])
+    found = []
+    for c in q.tolist():
+        errors = zeros(len(ERRORS))
+        errors_at(pool, tables.volumetric[0], [0.0, 0.0, 0.0, 0.0, 0.0, c], errors)
+        found.append(errors[ERRORS.index("EXC")])
+    folded = (q - start) % 360.0 + start
+    assert found == pytest.approx(np.interp(folded, nodes, one.values), abs=1e-13)
+    if len(nodes) > 1:
+        assert found[len(nodes) + 1] == found[len(nodes) + 2]  # 450° and −270°
+
+
+@pytest.mark.parametrize("first", [-180.0, -90.0, 0.0, 30.0])
+def test_a_table_over_a_full_turn_is_folded_from_its_first_point_whatever_the_axis_counts(first: float) -> None:
+    nodes = first + np.arange(0.0, 361.0, 40.0)
+    values = np.linspace(-0.01, 0.02, 10)
+    one = table("EXC", "C", nodes[:, None], values, Interpolation.GRID)
+    q = np.array([first, first + 359.0, first + 361.0, first - 1.0, 1234.5, -777.0])
+    found = evaluate([one], q[:, None], "C")[:, 0]
+    assert found == pytest.approx(np.interp((q - first) % 360.0 + first, nodes, values), abs=1e-12)
 
 
 def test_linear_positions_are_never_folded() -> None:

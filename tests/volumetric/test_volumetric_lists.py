@@ -344,7 +344,7 @@ def test_gantry_slaves_are_read(read: Callable[..., Reading]) -> None:
     machine, findings = reading.machine, reading.findings
     assert [finding.code for finding in findings] == ["AXC-TWICE"]
     assert machine.axis("Y2").gantry_master == 2
-    table = compile_tables(machine).volumetric[0]
+    table = compile_tables(machine).tables.volumetric[0]
     members = sorted(zip(table.member[: table.members], table.member_letter, strict=False))
     assert members == [(0, 0), (1, 1), (2, 2), (3, 4), (4, 5), (5, 1)]
 

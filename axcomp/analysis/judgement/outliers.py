@@ -21,7 +21,7 @@ from ...model.curve import Curve
 from ...model.grid import Grid
 from ...model.machine import Machine
 from ...model.quantity import Quantity
-from .judge import JUDGED_LEAST
+from .judging import JUDGED_LEAST
 from .positions import Positions
 
 Indices = npt.NDArray[np.intp]

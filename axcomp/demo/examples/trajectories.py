@@ -64,11 +64,31 @@ def five_axis() -> Trajectory:
     return inputs
 
 
+def warm_axis() -> Trajectory:
+    """X and Y forth and back; Y turns again within its reversal. X gets warmer, once as it starts to move."""
+    limits = Limits(350.0, 4000.0, 2e5)
+    course = Course({"X": 100.0, "Y": 40.0}, CYCLE_TIME)
+    course.dwell(0.03)
+    course.move({"X": 150.0, "Y": 62.0}, limits)
+    warmer = course.dwell(0.05)
+    course.dwell(0.04)
+    course.move({"X": 118.0}, limits)
+    for target in (61.98, 62.0, 61.98):
+        grown = course.move({"Y": target}, Limits(10.0, 4000.0, 4e6)) - 6
+    course.move({"X": 139.0, "Y": 30.0}, limits)
+    inputs = _inputs(course)
+    at = np.arange(CYCLES)
+    inputs["X.temperature.offset"] = np.where(at < warmer, 0.0015, 0.004)
+    inputs["X.temperature.coefficient"] = np.where(at < grown, 12e-6, 23.5e-6)
+    return inputs
+
+
 TRAJECTORIES: Mapping[str, Callable[[], Trajectory]] = {
     "three_axis": three_axis,
     "rotary_table": rotary_table,
     "five_axis": five_axis,
     "manual_examples": manual_examples,
+    "warm_axis": warm_axis,
 }
 """By the name of the model's folder."""
 
