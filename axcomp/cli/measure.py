@@ -11,7 +11,8 @@ from pathlib import Path
 
 from ..measurement.columns import MeasurementError
 from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
-from ..measurement.positioning import Positioning, joined, read_positioning
+from ..measurement.positioning import Positioning, read_positioning
+from ..measurement.readings import joined
 from ..measurement.uncertainty import Conditions
 from ..model.quantity import symbol
 from .check import STATUS_MAX

@@ -27,7 +27,7 @@ _SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _-]*?)\s*::\s*\Z")
 _FIELD = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _.-]*?)\s*:\s*(.*?)\s*\Z")
 
 
-Readings = tuple[Array, npt.NDArray[np.int64], npt.NDArray[np.int64], Array]
+LinearReadings = tuple[Array, npt.NDArray[np.int64], npt.NDArray[np.int64], Array]
 """Targets in mm, runs, directions and deviations in µm, as in ``positioning.Positioning``."""
 
 
@@ -36,7 +36,7 @@ def is_rtl(path: Path) -> bool:
     return path.suffix.lower() == SUFFIX
 
 
-def read_rtl(path: Path) -> tuple[Readings, dict[str, str]]:
+def read_rtl(path: Path) -> tuple[LinearReadings, dict[str, str]]:
     """Return readings and details of a file; MeasurementError, with the line, if it is damaged."""
     reader = _Reader(str(path))
     for line, written in enumerate(read_text(path).split("\n"), 1):
@@ -82,7 +82,7 @@ class _Reader:
             raise self._error(line, f"There is no target {target}; the file has {len(self._targets)}.")
         self._readings.append((run, target - 1, self._number(line, words[2]), line))
 
-    def readings(self) -> Readings:
+    def readings(self) -> LinearReadings:
         """Return all readings with their directions."""
         if not self._targets:
             raise self._error(0, "There are no targets in it (section TARGET DATA); is it a linear measurement?")

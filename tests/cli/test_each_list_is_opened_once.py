@@ -97,6 +97,7 @@ def test_a_command_opens_each_list_once(
     ("model", "kind", "measurement", "into", "apart"),
     [
         ("three_axis", ["leadscrew"], "x.csv", "achskw2.lis", set()),
+        ("three_axis", ["backlash"], "x.csv", "achsmd2.lis", set()),
         # What concerns only other axes is not looked at.
         (
             "five_axis",
