@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..lists import Reading
 from ..analysis.judgement import Evidence
 from ..model.machine import CYCLE_TIME, Machine
 

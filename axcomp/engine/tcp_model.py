@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,11 +16,7 @@ from ..kernel.volumetric_model import FRAME, carry_to_workpiece, correction_at
 from ..model.machine import Axis, AxisType, Machine
 from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from ..runtime.compile import compile_tables
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+from .motion import Array
 
 _STEP = 1e-4
 """mm and rad by which errors are changed to see what they do; the model is all but linear in them."""
@@ -30,10 +25,7 @@ _STEP = 1e-4
 class TcpModel:
     """A machine with a volumetric compensation whose errors can be given.
 
-    Parameters
-    ----------
-    volumetric : Volumetric
-        Its chain, centres, directions, offsets and so on, and the errors that are known.
+    ``volumetric`` has its chain, centres, directions, offsets and so on, and the errors that are known.
     """
 
     def __init__(self, volumetric: Volumetric) -> None:

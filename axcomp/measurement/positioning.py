@@ -31,28 +31,13 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False)
 class Positioning(Readings):
-    """Readings at targets, in any order.
+    """Readings at targets, in any order; arrays have shape (n,).
 
-    Attributes
-    ----------
-    targets : array, shape (n,)
-        Where each reading was taken, mm or °.
-    runs : array of int, shape (n,)
-        Number of the run, counted from 1 in each direction.
-    directions : array of int, shape (n,)
-        1 or −1: from which side the target was approached.
-    deviations : array, shape (n,)
-        Actual − target, µm or ″.
-    unit : str
-        Of the targets: ``mm`` or ``deg``.
-    axis : str
-        Its name, "" if the file does not say.
-    source : str
-        The file or files.
-    deviating_unit : str
-        Where another axis than the one at the targets deviates, what that one counts in; else "".
-    details : mapping of str to str
-        What else the file says about the measurement.
+    ``targets``: where each reading was taken, in ``unit``, ``mm`` or ``deg``; ``runs``: number of the run, counted from
+    1 in each direction; ``directions``: 1 or −1, from which side the target was approached; ``deviations``: actual −
+    target, µm or ″. ``axis`` is its name, "" if the file does not say, ``source`` the file or files, ``details`` what
+    else the file says. Where another axis than the one at the targets deviates, ``deviating_unit`` is what that one
+    counts in; else "".
     """
 
     targets: Array
@@ -77,10 +62,10 @@ class Positioning(Readings):
 
     def grid(self) -> tuple[Array, npt.NDArray[np.int64], Array]:
         """Return targets (m,), runs (k,) and deviations (2, m, k): first positive direction, NaN where nothing is."""
-        targets, place = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
+        targets, target = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
         runs, run = np.unique(self.runs, return_inverse=True)
         deviations = np.full((2, len(targets), len(runs)), np.nan)
-        deviations[(self.directions < 0).astype(int), place, run] = self.deviations
+        deviations[(self.directions < 0).astype(int), target, run] = self.deviations
         return targets, runs, deviations
 
     def with_deviations(self, deviations: Array) -> Positioning:
@@ -91,30 +76,18 @@ class Positioning(Readings):
 def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Positioning:
     """Read a measurement: Renishaw ``.rtl``, else a table with ``target, run, direction, deviation``.
 
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-    of_another_axis : bool
-        Not the axis at the targets deviates but one that follows it; targets may then be angles and deviations lengths.
+    ``of_another_axis``: not the axis at the targets deviates but one that follows it; targets may then be angles and
+    deviations lengths.
 
     Raises
     ------
     MeasurementError
-        The file cannot be read, or a line of it; it names the place.
+        The file cannot be read, or a line of it; it names file and line.
     """
     path = Path(path)
     if is_rtl(path):
-        linear = read_rtl(path)
-        return Positioning(
-            linear.targets,
-            linear.runs,
-            linear.directions,
-            linear.deviations,
-            axis=linear.details.get("axis", ""),
-            source=str(path),
-            details=linear.details,
-        )
+        readings, details = read_rtl(path)
+        return Positioning(*readings, axis=details.get("axis", ""), source=str(path), details=details)
     return _from_columns(read_columns(path, COLUMNS), of_another_axis)
 
 
@@ -138,12 +111,11 @@ def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
     targets = columns.positions("target")
     directions = columns.values["direction"].astype(np.int64)
     seen: dict[tuple[float, int, int], int] = {}
-    for *key, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):
-        place = (float(key[0]), int(key[1]), int(key[2]))
-        if place in seen:
-            sentence = f"Target {place[0]:g} of run {place[1]} is there already, in line {seen[place]}."
+    for *reading, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):
+        first = seen.setdefault((reading[0], reading[1], reading[2]), line)
+        if first != line:
+            sentence = f"Target {reading[0]:g} of run {reading[1]} is there already, in line {first}."
             raise MeasurementError(columns.file, int(line), sentence)
-        seen[place] = int(line)
     return Positioning(
         targets,
         runs,

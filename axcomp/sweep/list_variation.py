@@ -25,14 +25,8 @@ _INDEX = re.compile(r"\[\s*(\d*)\s*\]")
 class ListEntry:
     """``achskw1.lis: kw.ssfk.table[].pos``: an entry of a list, or one in each row of a table.
 
-    Attributes
-    ----------
-    file : str
-        Name of the list, with as many folders in front as tell it from others.
-    entry : str
-        Name of the entry; empty indices: all that are there.
-    scale : bool
-        Multiply the numbers that are there; else set them.
+    ``file``: name of the list, with as many folders in front as tell it from others; ``entry``: empty indices: all that
+    are there; ``scale``: multiply the numbers that are there; else set them.
     """
 
     file: str
@@ -126,15 +120,7 @@ def _plain(value: Value) -> Value:
 
 
 def read_files(start: str, files: Mapping[str, bytes]) -> Reading:
-    """Return the machine that lists describe.
-
-    Parameters
-    ----------
-    start : str
-        What ``read_machine`` is to read, relative to where the files lie.
-    files : mapping of str to bytes
-        By relative path, with ``/``.
-    """
+    """Return the machine of lists by relative path, with ``/``; ``start``: what ``read_machine`` is to read."""
     return read_machine(start, documents=[Document(name, data) for name, data in files.items()])
 
 

@@ -73,8 +73,10 @@ def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
     if n >= JUDGED_LEAST:
         pairs = ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))
         lines = np.stack([y[at] - _line(x, y, a, b, at) for a, b in pairs])
-        agree = np.abs(np.sign(lines).sum(axis=0)) == len(lines)
-        score[at] = np.where(agree, np.abs(lines).min(axis=0), 0.0)
+        size = np.abs(lines)
+        # All three see an outlier as it is; beside one, the lines that run through it see it and the third does not.
+        agree = (np.abs(np.sign(lines).sum(axis=0)) == len(lines)) & (size.min(axis=0) >= size.max(axis=0) / 4.0)
+        score[at] = np.where(agree, size.min(axis=0), 0.0)
         distance[at] = lines[0]
     known = np.abs(distance[~np.isnan(distance)])
     ordinary = max(SIGMA_OF_MEDIAN * float(np.median(known)) if known.size else 0.0, RESOLUTION)
