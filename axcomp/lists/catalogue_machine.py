@@ -11,6 +11,20 @@ def _start_up(number: str) -> dict[Manual, str]:
     return {Manual.START_UP: f"P-STUP-{number}"}
 
 
+def _gear(name: str, meaning: str, default: int, number: str, code: str = "AXC-RANGE", low: int = 1) -> Parameter:
+    """Return a parameter of the gear steps."""
+    return Parameter(
+        f"getriebe[i].{name}",
+        meaning,
+        DataType.UNS32,
+        default,
+        axis(number),
+        range=f"[{low}, MAX]",
+        index_max=(15,),
+        code=code,
+    )
+
+
 START_UP = (
     Parameter("zahl_kw", "Number of compensation value lists", DataType.UNS16, 0, _start_up("00016"), range="[0, 32]"),
     Parameter(
@@ -111,26 +125,13 @@ AXIS = (
         axis("00526"),
         Quantity.VELOCITY,
     ),
-    Parameter(
-        "getriebe[i].wegaufn",
-        "Path resolution, 0.1 µm or 0.0001°",
-        DataType.UNS32,
-        1,
-        axis("00233"),
-        range="[1, MAX]",
-        index_max=(15,),
-        code="110086",
-    ),
-    Parameter(
-        "getriebe[i].wegaufz",
-        "Path resolution, increments",
-        DataType.UNS32,
-        1,
-        axis("00234"),
-        range="[1, MAX]",
-        index_max=(15,),
-        code="110386",
-    ),
+    _gear("wegaufn", "Path resolution, 0.1 µm or 0.0001°", 1, "00233", "110086"),
+    _gear("wegaufz", "Path resolution, increments", 1, "00234", "110386"),
+    _gear("incr_per_rev", "Encoder increments per revolution of the motor", 1024, "00092", low=0),
+    _gear("gear_fact_num", "Gear: turns of the motor", 1, "00511"),
+    _gear("gear_fact_denom", "Gear: turns of the load", 1, "00512"),
+    _gear("feed_const_num", "Feed constant, 0.1 µm or 0.0001°", 1, "00362"),
+    _gear("feed_const_denom", "Feed constant, revolutions of the load", 1, "00363", "110472"),
     Parameter(
         "getriebe[i].modulou",
         "Lower end of the modulo range",

@@ -92,6 +92,8 @@ CODES: dict[str, tuple[Severity, str]] = {
     "110229": (_ERROR, "Logical axis number of the start-up list and of the compensation list differ"),
     "110086": (_WARNING, "Path resolution: wegaufn is 0; 1 is used"),
     "110386": (_WARNING, "Path resolution: wegaufz is 0; 1 is used"),
+    "110472": (_ERROR, "Path resolution: feed_const_denom is 0; 1 is used"),
+    "AXC-RESOLUTION": (_WARNING, "Path resolution: incr_per_rev is 0, although there is a feed constant; 1024 is used"),
     "110052": (_WARNING, "Modulo range is not positive; 0 … 360 ° is used"),
     # Compensations
     "AXC-INACTIVE": (_INFO, "A table is there, but nothing activates it"),

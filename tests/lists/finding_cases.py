@@ -238,6 +238,21 @@ CASES = [
         "getriebe[0].wegaufz",
     ),
     machine(
+        "110472",
+        {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, "getriebe[0].feed_const_denom 0\n")},
+        2,
+        "getriebe[0].feed_const_denom",
+    ),
+    machine(
+        "AXC-RESOLUTION",
+        {
+            "hochlauf.lis": start_up(axes=MDS),
+            "achsmd1.lis": axis_list(1, "getriebe[0].incr_per_rev 0\ngetriebe[0].feed_const_num 100\n"),
+        },
+        2,
+        "getriebe[0].incr_per_rev",
+    ),
+    machine(
         "110052",
         {
             "hochlauf.lis": start_up(axes=MDS),
