@@ -46,8 +46,16 @@ START_UP = (
         "",
         _start_up("00035"),
     ),
-    Parameter("zahl_mds", "Number of axis lists", DataType.UNS16, 0, {}, range="[0, 32]"),
-    Parameter("achs_mds[i]", "File name of an axis list", DataType.STRING, "", {}, index_max=(31,)),
+    Parameter(
+        "zahl_mds",
+        "Number of axis lists",
+        DataType.SGN16,
+        0,
+        _start_up("00014"),
+        range="[1, 32]",
+        usable="[0, 32]",
+    ),
+    Parameter("achs_mds[i]", "File name of an axis list", DataType.STRING, "", _start_up("00015"), index_max=(31,)),
     Parameter(
         "vol_comp[i].max_records",
         "Records reserved for a volumetric compensation",
@@ -67,7 +75,7 @@ START_UP = (
         index_code="70506",
     ),
 )
-"""``hochlauf.lis``. ``zahl_mds`` and ``achs_mds`` are ours, in the shape of ``zahl_kw`` and ``achs_kw``."""
+"""``hochlauf.lis``."""
 
 AXIS = (
     Parameter(

@@ -75,6 +75,7 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-STRING": (_WARNING, "A string is not closed, or holds characters that only quotes allow"),
     # Entries
     "AXC-UNKNOWN": (_WARNING, "An entry is not in the catalogue"),
+    "AXC-OTHERS": (_INFO, "Entries of the controller that have no effect on compensations"),
     "AXC-TYPO": (_WARNING, "An entry is spelt in a way that only some lists use"),
     "AXC-TWICE": (_WARNING, "An entry is given twice; the later one counts"),
     "AXC-INDEX": (_WARNING, "An index is larger than the parameter allows"),

@@ -220,7 +220,7 @@ class _MachineReader:
         if values.looks_like is not None:
             message = f"This looks like a list {values.looks_like.value}, not {kind.value}; it is not used."
             self.findings.add("AXC-KIND", str(path), 0, "", message)
-        elif not values:
+        elif not values and not (kind is ListKind.AXIS and values.others):
             self.findings.add("AXC-EMPTY", str(path), 0, "", f"The list has no entry of a list {kind.value}.")
         else:
             return values

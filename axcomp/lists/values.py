@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 from decimal import Decimal
-from functools import lru_cache
 
 from ..kinds.parameter import DataType, ListKind, Parameter, Severity, Value, key_of
 from ..kinds.units import METRIC, Gear, convert
 from .catalogue import SPELLINGS, parameter
 from .findings import CODES, Findings
 from .grammar import Entry, entries, number, string
+from .known import is_known, similar
 
 _SUGGESTIONS_MAX = 500
 
@@ -43,6 +42,8 @@ class ListValues:
         What decides which parameters there are.
     foreign : dict of ListKind to int
         Unknown entries that another kind of list has, by that kind.
+    others : int
+        Entries that have nothing to do with compensation.
     """
 
     def __init__(self, file: str, kind: ListKind, fallback: ListValues | None = None) -> None:
@@ -51,6 +52,7 @@ class ListValues:
         self._fallback = fallback
         self._columns: dict[str, _Column] = {}
         self.foreign: dict[ListKind, int] = {}
+        self.others = 0
 
     @property
     def looks_like(self) -> ListKind | None:
@@ -139,6 +141,7 @@ def read_values(
                 reader.take(column, entry)
         else:
             reader.take(column, entry)
+    reader.finish()
     return values
 
 
@@ -165,8 +168,9 @@ class _ValueReader:
         spelling = SPELLINGS[self._values.kind].get(key)
         if spelling is None:
             self._count_foreign(key)
-            few = len(self._unknown) < _SUGGESTIONS_MAX
-            self._unknown[entry.key] = _similar(self._values.kind, key) if few else ""
+            if not is_known(self._values.kind, key):
+                few = len(self._unknown) < _SUGGESTIONS_MAX
+                self._unknown[entry.key] = similar(self._values.kind, key) if few else ""
             return None
         if spelling.typo:
             right = spelling.parameter.name
@@ -180,10 +184,20 @@ class _ValueReader:
 
     def report_unknown(self, entry: Entry) -> None:
         """Note an entry that is not in the catalogue; one that looks like a slip is not lost among strangers."""
-        similar = self._unknown[entry.key]
-        hint = f"; {similar} may be meant" if similar else ""
+        meant = self._unknown.get(entry.key)
+        if meant is None:
+            self._values.others += 1
+            return
+        hint = f"; {meant} may be meant" if meant else ""
         message = f"{entry.name} is not known in this list{hint}; it is not taken."
-        self._note("AXC-UNKNOWN", entry, message, "similar to known ones" if similar else "")
+        self._note("AXC-UNKNOWN", entry, message, "similar to known ones" if meant else "")
+
+    def finish(self) -> None:
+        """Note in one sentence what has nothing to do with compensation."""
+        if count := self._values.others:
+            entries_are = "entry is" if count == 1 else "entries are"
+            message = f"{count:,} {entries_are} known, but without effect on compensations; not used."
+            self._findings.add("AXC-OTHERS", self._values.file, 0, "", message)
 
     def take(self, column: _Column, entry: Entry) -> None:
         """Check an entry and keep its value, or the default instead."""
@@ -255,12 +269,3 @@ def _number(parameter: Parameter, word: str) -> int | Decimal | None:
 
 def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:40]}…"
-
-
-@lru_cache(maxsize=4096)
-def _similar(kind: ListKind, key: str) -> str:
-    """Return the name of the parameter that an unknown one resembles, "" if none does."""
-    if len(key) > 80:
-        return ""
-    found = difflib.get_close_matches(key, SPELLINGS[kind], 1, 0.85)
-    return SPELLINGS[kind][found[0]].parameter.name if found else ""

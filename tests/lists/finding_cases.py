@@ -134,6 +134,7 @@ CASES = [
     one("AXC-STRING", f"kopf.log_achs_name X # axis\n{LEADSCREW}", 1, "kopf.log_achs_name", "leadscrew"),
     # Entries
     one("AXC-UNKNOWN", f"{LEADSCREW}kw.ssfk.colour 3\n", 8, "kw.ssfk.colour", "leadscrew"),
+    one("AXC-OTHERS", f"kopf.mds_ident 5\n{LEADSCREW}", 0, "", "leadscrew"),
     one("AXC-TYPO", LEADSCREW.replace("interval", "intervall"), 3, "kw.ssfk.intervall", "leadscrew"),
     one("AXC-TWICE", f"{LEADSCREW}KW.SSFK.table[2].pos 4\n", 8, "KW.SSFK.table[2].pos", "leadscrew"),
     one(

@@ -106,7 +106,7 @@ def test_the_same_fault_in_every_row_is_counted_not_repeated(read_lists: ReadLis
 
 
 def test_slips_are_not_lost_among_entries_of_other_functions(read_lists: ReadLists) -> None:
-    strangers = "".join(f"antr.parameter_{i} 1\n" for i in range(300))
+    strangers = "".join(f"other.parameter_{i} 1\n" for i in range(300))
     files = {
         "hochlauf.lis": start_up(axes=MDS),
         "achsmd1.lis": axis_list(1, f"{strangers}lr_param.sskf 1\n"),
