@@ -25,6 +25,23 @@ def _gear(name: str, meaning: str, default: int, number: str, code: str = "AXC-R
     )
 
 
+_MODES = {
+    "LINEAR": 0x1,
+    "MODULO": 0x4,
+    "PLANDREHEN": 0x40,
+    "LAENGSDREHEN": 0x80,
+    "KEINE_AUTO_RPF": 0x100,
+    "CAX": 0x200,
+    "MODULO_LINEAR": 0x400,
+    "CLAMPABLE": 0x800,
+    "ROT_TABLE": 0x1000,
+    "COLL_CHECK": 0x8000,
+    "GANTRY_MASTER": 0x1_0000,
+    "GANTRY_SLAVE": 0x2_0000,
+    "SPINDLE_EXT_CTRL": 0x4_0000,
+}
+"""Bits of P-AXIS-00015 by the names the vendor's page gives; only that of modulo matters."""
+
 START_UP = (
     Parameter("zahl_kw", "Number of compensation value lists", DataType.UNS16, 0, _start_up("00016"), range="[0, 32]"),
     Parameter(
@@ -103,7 +120,8 @@ AXIS = (
         DataType.UNS32,
         1,
         axis("00015"),
-        names={"ACHSMODE_LINEAR": 0x1, "ACHSMODE_MODULO": 0x4},
+        names={f"ACHSMODE_{name}": bit for name, bit in _MODES.items()},
+        flags=True,
     ),
     Parameter("kenngr.gantry_ax_nr", "Logical number of the gantry master", DataType.UNS16, 0, axis("00070")),
     *(kind.activator for kind in KINDS.values()),

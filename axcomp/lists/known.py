@@ -21,7 +21,7 @@ _HEADS = {
     ListKind.COMPENSATION: f"{_CHANNEL_HEADS} kopf",
     ListKind.VOLUMETRIC: "",
 }
-"""Structures of each kind of list: the first part of a name. Those of channels, whose lists are not read, everywhere."""
+"""Structures of each kind of list, by the first part of a name; those of channels, which have own lists, everywhere."""
 
 _CHANNEL = (
     "cax_face_id channel_type corr_v_trans_jerk default_ax_name_of_spindle dpl_input_cycles einrechnen_mit_t "

@@ -8,7 +8,7 @@ from ..kinds.parameter import DataType, ListKind, Parameter, Severity, Value, ke
 from ..kinds.units import METRIC, Gear, convert
 from .catalogue import SPELLINGS, parameter
 from .findings import CODES, Findings
-from .grammar import Entry, entries, number, string
+from .grammar import Entry, entries, flags, number, string
 from .known import is_known, similar
 
 _SUGGESTIONS_MAX = 500
@@ -28,7 +28,8 @@ class _Column:
         self.low = plausible.low + plausible.low_open
         self.high = plausible.high - plausible.high_open
         self.index_max = parameter.index_max
-        self.quick = parameter.type is not DataType.STRING and not parameter.values and not parameter.index_max
+        special = parameter.values or parameter.names or parameter.index_max
+        self.quick = parameter.type is not DataType.STRING and not special
 
 
 class ListValues:
@@ -218,7 +219,7 @@ class _ValueReader:
             return self._default(parameter, entry, "AXC-VALUE", "has no value")
         if parameter.type is DataType.STRING:
             return self._string(parameter, entry)
-        value = _number(parameter, entry.word)
+        value = _joined(parameter, entry.text) if parameter.flags else _number(parameter, entry.word)
         if value is None:
             kind = "is neither 0 nor 1" if parameter.type is DataType.BOOLEAN else "is no number"
             return self._default(parameter, entry, "AXC-VALUE", f"= {_short(entry.word)} {kind}")
@@ -265,6 +266,17 @@ def _number(parameter: Parameter, word: str) -> int | Decimal | None:
         value = {"TRUE": 1, "FALSE": 0}.get(capitals, number(word))
         return value if value in (0, 1) else None
     return parameter.names.get(capitals, number(word))
+
+
+def _joined(parameter: Parameter, text: str) -> int | None:
+    """Return the bits of names and numbers as in ``A | B``; a second word that is neither begins the comment."""
+    bits = None
+    for word in flags(text).split("|"):
+        value = _number(parameter, word.strip())
+        if not isinstance(value, int):
+            break
+        bits = value if bits is None else bits | value
+    return bits
 
 
 def _short(text: str) -> str:

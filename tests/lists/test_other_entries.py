@@ -116,3 +116,31 @@ def test_a_channel_list_is_told_from_a_list_of_tables_in_a_few_lines(read_lists:
     )
     findings = read_lists({"sda.lis": channel}, "sda.lis").findings
     assert sorted(finding.code for finding in findings) == ["AXC-EMPTY", "AXC-OTHERS"]
+
+
+@pytest.mark.parametrize(
+    ("mode", "modulo"),
+    [
+        ("ACHSMODE_MODULO | ACHSMODE_CLAMPABLE", True),
+        ("ACHSMODE_CLAMPABLE|ACHSMODE_MODULO /* both */", True),
+        ("0x800 | 0x4", True),
+        ("2048 | 4 # both", True),
+        ("4", True),
+        ("achsmode_linear | ACHSMODE_CAX", False),
+        ("0x800 ACHSMODE_MODULO", False),
+        ("0x801 ( | 4", False),
+    ],
+)
+def test_modes_of_an_axis_may_be_joined(mode: str, modulo: bool, read_lists: ReadLists) -> None:
+    axis = f"kopf.achs_nr 1\nkenngr.achs_typ 2\nkenngr.achs_mode {mode}\nlr_param.ssfk 1\n"
+    reading = read_lists({"achsmd1.lis": axis, "achskw1.lis": f"kopf.achs_nr 1\n{TABLE}"})
+    assert reading.findings == ()
+    assert (reading.machine.axes[0].modulo is not None) == modulo
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_lists_in_utf_16_are_read(encoding: str, read_lists: ReadLists) -> None:
+    files = {name: f"\ufeff{text}".encode(encoding) for name, text in lists().items()}
+    reading = read_lists(files, "hochlauf.lis")
+    assert [(axis.name, list(axis.kinds)) for axis in reading.machine.axes] == [("X", ["leadscrew"])]
+    assert {finding.code for finding in reading.findings} == {"AXC-OTHERS"}
