@@ -124,6 +124,7 @@ class PlaneKind(Kind[Plane]):
     )
     columns = (CORRECTION,)
     sizes = _LAST_INDEX
+    places = _START
     reserves = _MAX_POINTS
     points_error = 110640
     at_standstill = True

@@ -27,7 +27,9 @@ _ANY_NAME = re.compile(rf"\s*([^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*){_NAME_END}(
 _INDEX = re.compile(r"\[([0-9\s]*)\]")
 # A comment that is not closed in its line, and a line that begins one: before it stands nothing, or an unquoted value.
 _UNCLOSED = re.compile(r"/\*[^\n*]*+(?:\*(?!/)[^\n*]*+)*+\n")
-_OPENING = re.compile(rf"\s*(?:[^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*\s+[^\s#({QUOTES}]\S*(?:\s*\|\s*\w+)*\s+)?/\*")
+_OPENING = re.compile(
+    rf"\s*(?:[^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*\s+(?:(?!/\*)[^\s#({QUOTES}]\S*(?:\s*\|\s*\w+)*\s+)?)?/\*"
+)
 _ELISION = re.compile(r"\s*(?:\.{2,}|…|:+)\s*$")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?\Z")
 _HEXADECIMAL = re.compile(r"0[xX]([0-9a-fA-F]{1,16})\Z")
@@ -69,8 +71,9 @@ class Entry(NamedTuple):
 
     @property
     def word(self) -> str:
-        """Value up to the first blank: all there is to a number."""
-        return self.integer or (self.rest.split(None, 1) or [""])[0]
+        """Value up to the first blank: all there is to a number; "" where a comment stands in its place."""
+        word = self.integer or (self.rest.split(None, 1) or [""])[0]
+        return "" if word.startswith("/*") else word
 
     @property
     def name(self) -> str:

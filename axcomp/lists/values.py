@@ -6,7 +6,7 @@ from decimal import Decimal
 
 from ..kinds.parameter import DataType, ListKind, Parameter, Severity, Value, key_of
 from ..kinds.units import METRIC, Gear, convert
-from .catalogue import SPELLINGS, parameter
+from .catalogue import SPELLINGS, ZEROED, parameter
 from .findings import CODES, Findings
 from .grammar import Entry, entries, flags, number, string
 from .known import is_known, similar
@@ -19,11 +19,12 @@ Indices = tuple[int, ...]
 class _Column:
     """All values of one parameter in one list, by their indices."""
 
-    __slots__ = ("cells", "high", "index_max", "low", "parameter", "quick")
+    __slots__ = ("cells", "high", "index_max", "low", "parameter", "quick", "spellings")
 
     def __init__(self, parameter: Parameter) -> None:
         self.parameter = parameter
         self.cells: dict[Indices, tuple[Value, int]] = {}
+        self.spellings: set[str] = set()
         plausible = parameter.plausible
         self.low = plausible.low + plausible.low_open
         self.high = plausible.high - plausible.high_open
@@ -77,6 +78,10 @@ class ListValues:
     def given(self, name: str, *indices: int) -> bool:
         """Whether an entry is there."""
         return indices in self.cells(name)
+
+    def spelt(self, name: str) -> bool:
+        """Whether a parameter is given by this very name."""
+        return any(key_of(name) in column.spellings for column in self._columns.values())
 
     def place(self, name: str, *indices: int) -> tuple[str, int]:
         """Return file and line of an entry, line 0 where it is missing."""
@@ -176,7 +181,9 @@ class _ValueReader:
         if spelling.typo:
             right = spelling.parameter.name
             self._note("AXC-TYPO", entry, f"{entry.key} is read as {right}, which is the usual spelling.")
-        return self._values.column(spelling.parameter)
+        column = self._values.column(spelling.parameter)
+        column.spellings.add(key)
+        return column
 
     def _count_foreign(self, key: str) -> None:
         for kind, spellings in SPELLINGS.items():
@@ -215,7 +222,7 @@ class _ValueReader:
         column.cells[entry.indices] = (self._plausible(column.parameter, entry), entry.line)
 
     def _plausible(self, parameter: Parameter, entry: Entry) -> Value:
-        if not entry.text.strip():
+        if not entry.word:
             return self._default(parameter, entry, "AXC-VALUE", "has no value")
         if parameter.type is DataType.STRING:
             return self._string(parameter, entry)
@@ -252,6 +259,8 @@ class _ValueReader:
         return found.value
 
     def _default(self, parameter: Parameter, entry: Entry, code: str, fault: str) -> Value:
+        if code in ("AXC-VALUE", "AXC-RANGE") and parameter.key in ZEROED[self._values.kind]:
+            code = "AXC-ZEROED"
         instead = parameter.default if parameter.default != "" else "nothing"
         self._note(code, entry, f"{entry.name} {fault}; {instead} is used.")
         return parameter.default

@@ -167,7 +167,7 @@ def entry_lines(draw: st.DrawFn) -> str:
 
 LINES = st.lists(
     st.tuples(
-        st.one_of(entry_lines(), st.sampled_from(["", "# ß", "…", "kw.stranger 1", "\x1a", " 5", "so */"])),
+        st.one_of(entry_lines(), st.sampled_from(["", "# ß", "…", "kw.stranger 1", "\x1a", " 5"])),
         st.sampled_from(["\n", "\r\n", "\r"]),
     ),
     max_size=12,
@@ -341,9 +341,9 @@ def test_only_what_was_changed_is_parsed_again(folder: Path, monkeypatch: pytest
     again = reading.again()
     assert parsed == ["kw.lis"]
     assert again.machine.axes[0].leadscrew.positive == (1e-4, 2e-3)
-    assert {f.code for f in reading.findings} - {f.code for f in again.findings} == {"AXC-VALUE"}
+    assert {f.code for f in reading.findings} - {f.code for f in again.findings} == {"AXC-ZEROED"}
 
 
 def test_findings_know_the_column_of_their_entry(folder: Path) -> None:
     found = {(f.code, f.line): f.column for f in read_machine(folder).findings}
-    assert found == {("AXC-PATH", 2): 1, ("AXC-PATH", 4): 1, ("AXC-MISSING", 5): 1, ("AXC-VALUE", 6): 3}
+    assert found == {("AXC-PATH", 2): 1, ("AXC-PATH", 4): 1, ("AXC-MISSING", 5): 1, ("AXC-ZEROED", 6): 3}
