@@ -17,6 +17,7 @@ from ..plot.contents import contents_of
 from ..plot.page import overview, page, shown
 from ..plot.style import save
 from ..plot.volume import volumetric_contents
+from .axis_type import add_axis_type
 
 VOLUMETRIC = "volumetric"
 ROWS = 12
@@ -54,6 +55,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--tool-length", type=float, default=0.0, metavar="mm", help="for the TCP error (0)")
     parser.add_argument("--rows", type=int, default=ROWS, metavar="N", help=f"rows of a printed table ({ROWS}); 0: all")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="of what is printed; default: text")
+    add_axis_type(parser)
     parser.set_defaults(do=_do_show)
 
 
@@ -87,7 +89,7 @@ def _do_show(args: argparse.Namespace) -> int:
 
 def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
     """Return what is asked for, and the names of the machine's axes."""
-    reading = read_machine(path)
+    reading = read_machine(path, axis_type=args.axis_type)
     machine = reading.machine
     for finding in reading.findings:
         if finding.severity is Severity.ERROR:

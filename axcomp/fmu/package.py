@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ..interface.variable import Variable
 from ..interface.variables import Naming
+from ..lists import TypeName
 from ..model.companions import fmu_sources
 from ..model.machine import CYCLE_TIME
 from .archive import BuildError, content_guid, file_bytes, write_fmu
@@ -27,6 +28,7 @@ def package_axcomp(
     cycle_time: float = CYCLE_TIME,
     naming: Naming = "structured",
     external_tool: bool = True,
+    axis_type: TypeName | None = None,
 ) -> Built:
     """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
 
@@ -42,14 +44,16 @@ def package_axcomp(
         ``structured`` or ``flat``.
     external_tool : bool
         False: the FMU does not say that it needs Python; some hosts refuse FMUs that need something.
+    axis_type : str or None
+        As in ``read_machine``.
 
     Raises
     ------
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming)
-    interface = Interface.of(content.reading.machine, content.place, cycle_time)
+    content = read_content(lists, cycle_time, naming, axis_type)
+    interface = Interface.of(content.reading.machine, content.place, cycle_time, axis_type)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)

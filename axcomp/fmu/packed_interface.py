@@ -9,6 +9,7 @@ import json
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from ..lists import TypeName
 from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
 
 FILE_NAME = "axcomp.json"
@@ -40,24 +41,27 @@ class Interface:
         Of the position controller, s.
     axes : tuple of InterfaceAxis
         In the order of the variables.
+    axis_type : str or None
+        What was said of axes without axis lists (``read_machine``).
     """
 
     lists: str = ""
     cycle_time: float = CYCLE_TIME
     axes: tuple[InterfaceAxis, ...] = ()
+    axis_type: TypeName | None = None
 
     @classmethod
-    def of(cls, machine: Machine, lists: str, cycle_time: float) -> Interface:
+    def of(cls, machine: Machine, lists: str, cycle_time: float, axis_type: TypeName | None = None) -> Interface:
         """Return the interface of an FMU built for a machine."""
         axes = tuple(InterfaceAxis(axis.number, axis.name, axis.type.value) for axis in machine.axes)
-        return cls(lists, cycle_time, axes)
+        return cls(lists, cycle_time, axes, axis_type)
 
     @classmethod
     def from_json(cls, text: str) -> Interface:
         """Return what ``to_json`` wrote; ValueError, KeyError or TypeError if it is something else."""
         values: dict[str, Any] = json.loads(text)
         axes = tuple(InterfaceAxis(**axis) for axis in values["axes"])
-        return cls(str(values["lists"]), float(values["cycle_time"]), axes)
+        return cls(str(values["lists"]), float(values["cycle_time"]), axes, values.get("axis_type"))
 
     def to_json(self) -> str:
         """Return the text of the file."""
