@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from ..lists import Reading, Severity, read_machine
+from ..lists import Reading, Severity, TypeName, read_machine
 from ..model.companions import machine_path
 
 
@@ -28,9 +28,9 @@ def add_lists_command(
     return parser
 
 
-def read_lists(path: Path) -> Reading:
+def read_lists(path: Path, axis_type: TypeName | None = None) -> Reading:
     """Return the lists of a machine; errors in them go to standard error."""
-    reading = read_machine(path)
+    reading = read_machine(path, axis_type=axis_type)
     for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)

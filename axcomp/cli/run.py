@@ -16,6 +16,7 @@ from ..engine.engine import COMMAND, Engine
 from ..engine.nc_scanner import NcError
 from ..model.companions import machine_path, models
 from ..model.machine import CYCLE_TIME
+from .axis_type import add_axis_type
 
 TIME = "time"
 _ON_TIME = 1e-6
@@ -66,6 +67,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--naming", choices=("structured", "flat"), default="structured", help="X.setpoint (default) or X_setpoint"
     )
+    add_axis_type(parser)
     parser.set_defaults(do=_do_run)
 
 
@@ -74,7 +76,7 @@ def _do_run(args: argparse.Namespace) -> int:
     cycle_time = args.cycle_time or program.spacing or CYCLE_TIME
     if program.spacing is not None and abs(program.spacing - cycle_time) > _ON_TIME * cycle_time:
         raise ValueError(f"{args.program}: the rows are {program.spacing:g} s apart, the cycles {cycle_time:g} s")
-    engine = Engine(args.machine or models() / "three_axis", cycle_time, args.naming)
+    engine = Engine(args.machine or models() / "three_axis", cycle_time, args.naming, args.axis_type)
     engine.runtime.start_time = program.start
     for finding in engine.findings:
         print(finding, file=sys.stderr)

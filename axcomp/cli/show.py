@@ -15,6 +15,7 @@ from ..plot.content import VOLUMETRIC, Content, NotComparableError, Records
 from ..plot.contents import contents_of
 from ..plot.page import overview, page, shown
 from ..plot.style import save
+from .axis_type import add_axis_type
 from .lists import add_lists_command, failed, read_lists
 
 ROWS = 12
@@ -44,6 +45,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--tool-length", type=float, default=0.0, metavar="mm", help="for the TCP error (0)")
     parser.add_argument("--rows", type=int, default=ROWS, metavar="N", help=f"rows of a printed table ({ROWS}); 0: all")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="of what is printed; default: text")
+    add_axis_type(parser)
 
 
 def _do_show(args: argparse.Namespace) -> int:
@@ -74,7 +76,7 @@ def _do_show(args: argparse.Namespace) -> int:
 
 def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
     """Return what is asked for, and the names of the machine's axes."""
-    machine = read_lists(path).machine
+    machine = read_lists(path, args.axis_type).machine
     return contents_of(machine, args.axis, args.kind, args.tool_length), {axis.name for axis in machine.axes}
 
 

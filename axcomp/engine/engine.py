@@ -16,7 +16,7 @@ import numpy as np
 from ..interface.slot import Slot
 from ..interface.variable import Value, Variable, with_causality
 from ..interface.variables import Naming, by_name, slot_of, variables_of
-from ..lists import Finding, read_machine
+from ..lists import Finding, TypeName, read_machine
 from ..model.machine import CYCLE_TIME, Machine
 from ..native.library import compiled_kernel
 from ..native.runner import CompiledTables, run_compiled
@@ -82,6 +82,8 @@ class Engine:
         Of the position controller, s.
     naming : str
         ``structured`` or ``flat``, as the FMU's variables.
+    axis_type : str or None
+        As in ``read_machine``.
 
     Attributes
     ----------
@@ -100,13 +102,17 @@ class Engine:
     """
 
     def __init__(
-        self, machine: Machine | str | os.PathLike[str], cycle_time: float = CYCLE_TIME, naming: Naming = "structured"
+        self,
+        machine: Machine | str | os.PathLike[str],
+        cycle_time: float = CYCLE_TIME,
+        naming: Naming = "structured",
+        axis_type: TypeName | None = None,
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
         lists = None
         if not isinstance(machine, Machine):
             lists = machine
-            reading = read_machine(machine)
+            reading = read_machine(machine, axis_type=axis_type)
             machine, self.findings = reading.machine, tuple(reading.findings)
         self.machine = machine
         self.runtime = Runtime(machine, cycle_time)

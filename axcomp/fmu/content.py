@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..interface.variable import Variable
 from ..interface.variables import Naming, identifier, variables_of
 from ..kinds import CompileError
-from ..lists import Finding, Reading, read_machine
+from ..lists import Finding, Reading, TypeName, read_machine
 from ..model.machine import Machine
 from ..runtime.compile import Compiled, compile_tables
 from .archive import BuildError, generation_date
@@ -52,7 +52,9 @@ class Built(NamedTuple):
         return self.reading.findings
 
 
-def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured") -> Built:
+def read_content(
+    lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured", axis_type: TypeName | None = None
+) -> Built:
     """Read and compile the lists of a machine.
 
     Raises
@@ -60,7 +62,7 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
     BuildError
         If there is no axis in them, or they cannot be run or packed.
     """
-    reading = read_machine(lists)
+    reading = read_machine(lists, axis_type=axis_type)
     machine = reading.machine
     if not machine.axes:
         raise BuildError("\n".join([*map(str, reading.findings), f"{lists}: there is no axis in these lists."]))

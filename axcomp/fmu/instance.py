@@ -90,7 +90,7 @@ class Instance:
 
     def _read(self, path: Path) -> tuple[Machine, list[str], int]:
         """Return the machine of a list, what does not fit the variables, and the number of errors found."""
-        reading = read_machine(path)
+        reading = read_machine(path, axis_type=self._interface.axis_type)
         findings = reading.findings
         for finding in findings[:FINDINGS_MAX]:
             self.tell(finding.severity, str(finding))

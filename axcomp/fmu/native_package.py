@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from ..interface.variables import Naming
+from ..lists import TypeName
 from ..model.companions import fmu_sources
 from ..model.machine import CYCLE_TIME
 from ..native.compiler import PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
@@ -46,6 +47,7 @@ def package_native(
     cycle_time: float = CYCLE_TIME,
     naming: Naming = "structured",
     platforms: Sequence[str] = (),
+    axis_type: TypeName | None = None,
 ) -> Built:
     """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
 
@@ -61,6 +63,8 @@ def package_native(
         ``structured`` or ``flat``.
     platforms : sequence of str
         Those of ``PLATFORMS`` that get a library; none: the one this Python runs on.
+    axis_type : str or None
+        As in ``read_machine``.
 
     Raises
     ------
@@ -69,7 +73,7 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming)
+    content = read_content(lists, cycle_time, naming, axis_type)
     files = {f"resources/{name}": data for name, data in content.lists.items()}
     files.update(_libraries(platforms or (own_platform(),)))
     description = replace(
@@ -88,7 +92,11 @@ def package_native(
 
 
 def write_image(
-    lists: str | os.PathLike[str], output: str | os.PathLike[str], *, cycle_time: float = CYCLE_TIME
+    lists: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    cycle_time: float = CYCLE_TIME,
+    axis_type: TypeName | None = None,
 ) -> Built:
     """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
 
@@ -97,7 +105,7 @@ def write_image(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time)
+    content = read_content(lists, cycle_time, axis_type=axis_type)
     path = output_path(output, IMAGE)
     write_file(path, image_of(content.compiled, _guid(content)))
     return content._replace(path=path)

@@ -9,6 +9,7 @@ import json
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..lists import TypeName
 from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
 
 FILE_NAME = "axcomp.json"
@@ -21,29 +22,32 @@ class Interface:
 
     ``lists``: start-up list or single list, relative to ``resources``, with ``/``; ``cycle_time``: of the position
     controller, s; ``axes``: those that have variables, in their order, without compensations: a corrected setpoint is
-    the setpoint.
+    the setpoint; ``axis_type``: what was said of axes without axis lists (``read_machine``).
     """
 
     lists: str = ""
     cycle_time: float = CYCLE_TIME
     axes: tuple[Axis, ...] = ()
+    axis_type: TypeName | None = None
 
     @classmethod
-    def of(cls, machine: Machine, lists: str, cycle_time: float) -> Interface:
+    def of(cls, machine: Machine, lists: str, cycle_time: float, axis_type: TypeName | None = None) -> Interface:
         """Return the interface of an FMU built for a machine."""
-        return cls(lists, cycle_time, tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes))
+        axes = tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes)
+        return cls(lists, cycle_time, axes, axis_type)
 
     @classmethod
     def from_json(cls, text: str) -> Interface:
         """Return what ``to_json`` wrote; ValueError, KeyError or TypeError if it is something else."""
         values: dict[str, Any] = json.loads(text)
         axes = tuple(Axis(**{**axis, "type": AxisType(axis["type"])}) for axis in values["axes"])
-        return cls(str(values["lists"]), float(values["cycle_time"]), axes)
+        return cls(str(values["lists"]), float(values["cycle_time"]), axes, values.get("axis_type"))
 
     def to_json(self) -> str:
         """Return the text of the file."""
         axes = [{"number": axis.number, "name": axis.name, "type": axis.type.value} for axis in self.axes]
-        return json.dumps({"lists": self.lists, "cycle_time": self.cycle_time, "axes": axes}, indent=2) + "\n"
+        values = {"lists": self.lists, "cycle_time": self.cycle_time, "axes": axes, "axis_type": self.axis_type}
+        return json.dumps(values, indent=2) + "\n"
 
     def bare(self) -> Machine:
         """Return a machine that corrects nothing."""

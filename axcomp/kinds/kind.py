@@ -43,6 +43,9 @@ class Values(Protocol):
     def given(self, name: str, *indices: int) -> bool:
         """Whether an entry is there."""
 
+    def spelt(self, name: str) -> bool:
+        """Whether a parameter is given by this very name."""
+
     def number(self, name: str, *indices: int) -> Any:
         """Return a number in the unit of the list."""
 
@@ -172,6 +175,8 @@ class Kind(ABC, Generic[C]):
         Fields of the compensation, and of records in it, that grow with what is compensated: a factor multiplies them.
     columns, sizes : tuple of str
         Entries whose presence, or whose value above 0, means that there is a table.
+    places : tuple of str
+        Entries that say where a table lies: the wrong default would go unnoticed.
     reserves : str
         Entry that says how many entries the controller keeps free for its table; "" if none does.
     points_error : int
@@ -200,6 +205,7 @@ class Kind(ABC, Generic[C]):
     values: ClassVar[tuple[str, ...]]
     columns: ClassVar[tuple[str, ...]] = ()
     sizes: ClassVar[tuple[str, ...]] = ()
+    places: ClassVar[tuple[str, ...]] = ()
     reserves: ClassVar[str] = ""
     points_error: ClassVar[int] = 0
     at_standstill: ClassVar[bool] = False

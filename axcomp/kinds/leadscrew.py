@@ -118,6 +118,7 @@ class LeadscrewKind(Kind[Leadscrew]):
     values = ("positive", "negative")
     columns = (POSITIVE, NEGATIVE, _SETPOINT)
     sizes = (_COUNT,)
+    places = (_INTERVAL, _START)
     reserves = _MAX_POINTS
     points_error = 110638
     codes = {

@@ -125,6 +125,7 @@ class PlaneKind(Kind[Plane]):
     values = ("corrections",)
     columns = (CORRECTION,)
     sizes = _LAST_INDEX
+    places = _START
     reserves = _MAX_POINTS
     points_error = 110640
     at_standstill = True

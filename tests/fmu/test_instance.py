@@ -340,7 +340,7 @@ def test_without_lists_the_setpoints_go_through(resources: Path) -> None:
 
 
 def test_a_reader_that_fails_leaves_the_setpoints_as_they_are(resources: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(_: object) -> None:
+    def fail(_: object, **__: object) -> None:
         raise RuntimeError("100% wrong")
 
     monkeypatch.setattr(instance_module, "read_machine", fail)
