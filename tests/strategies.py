@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from axcomp.kinds.delaunay import triangulate
 from hypothesis import strategies as st
 
 from axcomp.kinds import (
@@ -21,7 +22,6 @@ from axcomp.kinds import (
     Plane,
     Temperature,
 )
-from axcomp.model.delaunay import triangulate
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 POSITION_MAX = 200_000.0

@@ -24,14 +24,32 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert (page.parent / target).exists(), target
 
 
-def test_every_convention_has_a_test_that_exists() -> None:
+def test_every_convention_has_a_reason_a_trace_and_a_test_that_exists() -> None:
     page = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
     rows = [row for row in page.splitlines() if row.startswith("| ") and not row.startswith("| Convention")]
     assert len(rows) > 40
+    assert sum("| — |" not in row for row in rows) > 50
     for row in rows:
+        assert all(cell.strip() for cell in row.strip("|").split(" | "))
+        assert row.count(" | ") == 3, row
         (reference,) = re.findall(r"`([\w/]+\.py)::(\w+)`", row)
         file, name = reference
         assert f"def {name}(" in (ROOT / "tests" / file).read_text(encoding="utf-8"), row
+
+
+def test_the_glossary_says_each_word_once_in_order_and_its_classes_exist() -> None:
+    page = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
+    sections = [re.findall(r"^\| (?!Word )([^|-][^|]*) \|", part, re.MULTILINE) for part in page.split("\n## ")[1:]]
+    words = [word for section in sections for word in section]
+    assert len(words) > 60
+    assert sorted(set(words)) == sorted(words)
+    for section in sections:
+        assert section == sorted(section, key=str.lower)
+    classes = re.findall(r"\| `(\w+)\.(\w+)` \|", page)
+    assert len(classes) > 35
+    for room, name in classes:
+        files = (ROOT / "axcomp" / room).rglob("*.py")
+        assert any(re.search(rf"^class {name}\b", path.read_text("utf-8"), re.MULTILINE) for path in files), name
 
 
 def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:

@@ -11,7 +11,7 @@ from typing import Any
 from ..analysis.judgement import Judgement
 from ..lists import Reading, Severity, read_machine
 from ..model.companions import machine_path
-from .judgement_options import add_judgement_options, evidence_of, judgement_of
+from .judgement_options import add_judgement_options, evidence_of
 
 STATUS_MAX = 100
 """Largest exit status: larger ones are not the program's to use."""
@@ -52,7 +52,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 def _do_check(options: argparse.Namespace) -> int:
     reading = read_machine(options.path)
     evidence = evidence_of(options, reading.machine)
-    judgement = judgement_of(options, reading, evidence)
+    judgement = evidence.judge(reading)
     reading = replace(reading, findings=(*reading.findings, *judgement.findings))
     counts = {severity: sum(f.severity is severity for f in reading.findings) for severity in Severity}
     if options.format == "json":

@@ -30,14 +30,9 @@ class InputError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class InputFile:
-    """Inputs from a table with a column for each.
+    """Inputs from a table with a column for each, shape (rows,), by name.
 
-    Attributes
-    ----------
-    columns : mapping of str to array, shape (rows,)
-        By name, without time.
-    time : array, shape (rows,), or None
-        Ascending, s; None: a row a cycle.
+    ``time``: ascending, s, shape (rows,); None: a row a cycle.
     """
 
     columns: Mapping[str, Array]
@@ -58,8 +53,8 @@ class InputFile:
         exact = np.abs(at[held] - instants) <= 1e-6 * cycle_time
         found: Columns = {}
         for name, values in self.columns.items():
-            between = values[held] if _switches(values) else np.interp(instants, at, values)
-            found[name] = np.where(exact, values[held], between)
+            switches = np.isin(values, (0.0, 1.0)).all()
+            found[name] = np.where(exact | switches, values[held], np.interp(instants, at, values))
         return found
 
 
@@ -77,17 +72,9 @@ class Sine:
 class Motion:
     """A motion that is generated.
 
-    Attributes
-    ----------
-    start : mapping of str to float
-        Where the axes of the moves begin, mm or °.
-    moves : sequence of mappings of str to float
-        Targets by axis, with ``velocity``, ``acceleration``, ``jerk`` of their own; or ``dwell`` in s. Over and over
-        again until the duration is over.
-    sines : mapping of str to Sine
-        By axis.
-    limits : Limits
-        Of the moves that say nothing else.
+    ``start``: where the axes of the moves begin, mm or °. ``moves``: targets by axis, with ``velocity``,
+    ``acceleration``, ``jerk`` of their own; or ``dwell`` in s; over and over again until the duration is over.
+    ``sines``: by axis. ``limits``: of the moves that say nothing else.
     """
 
     start: Mapping[str, float] = field(default_factory=dict)
@@ -114,11 +101,8 @@ class Motion:
         at = 2.0 * np.pi * np.arange(cycles) * cycle_time
         for axis, sine in self.sines.items():
             angle, speed = sine.frequency * at + np.radians(sine.phase), 2.0 * np.pi * sine.frequency
-            setpoints[axis] = Setpoints(
-                sine.centre + sine.amplitude * np.sin(angle),
-                sine.amplitude * speed * np.cos(angle),
-                -sine.amplitude * speed**2 * np.sin(angle),
-            )
+            swing, rate = sine.amplitude * np.sin(angle), sine.amplitude * speed * np.cos(angle)
+            setpoints[axis] = Setpoints(sine.centre + swing, rate, -sine.amplitude * speed**2 * np.sin(angle))
         found: Columns = {}
         for axis, commands in setpoints.items():
             found[f"{axis}.{_SETPOINT}"] = commands.position[:cycles]
@@ -185,8 +169,7 @@ def read_input(path: Path) -> InputFile:
         rows.append([_number(path, line, name, cell) for name, cell in zip(names, cells, strict=True)])
     if not rows:
         raise InputError(f"{path}: There is no row of inputs in it.")
-    table = np.array(rows)
-    columns = {name: table[:, place] for place, name in enumerate(names)}
+    columns = dict(zip(names, np.array(rows).T, strict=True))
     time = columns.pop(TIME, None)
     if not columns:
         raise InputError(f"{path}: There is no input besides {TIME}.")
@@ -204,10 +187,6 @@ def _number(path: Path, line: int, name: str, cell: str) -> float:
     if name == TIME and not math.isfinite(value):
         raise InputError(f"{path}:{line}: {cell!r} is no time in s.")
     return value
-
-
-def _switches(values: Array) -> bool:
-    return bool(np.isin(values, (0.0, 1.0)).all())
 
 
 def _cycles(duration: float, cycle_time: float) -> int:

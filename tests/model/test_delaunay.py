@@ -4,12 +4,11 @@ from itertools import product
 
 import numpy as np
 import pytest
+from axcomp.kinds.delaunay import Triangulation, triangulate
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, Delaunay
-
-from axcomp.model.delaunay import Triangulation, triangulate
 
 Points = NDArray[np.float64]
 

@@ -193,7 +193,7 @@ def test_forged_images_do_no_harm(host: Callable[[str], Program], way: str, reso
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2, 12))
-@pytest.mark.parametrize("name", ["three_axis", "five_axis", ""])
+@pytest.mark.parametrize("name", ["three_axis", "five_axis", "warm_axis", ""])
 def test_many_forged_images_do_no_harm(host: Callable[[str], Program], seed: int, name: str, resources: Path) -> None:
     machine = read_machine(models() / name).machine if name else MACHINE
     run_scrambled(host("forged"), resources, 100, seed, machine)

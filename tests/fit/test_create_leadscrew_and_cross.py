@@ -1,6 +1,7 @@
 """Leadscrew and cross tables made from measurements, and what they do on the example plant."""
 
 import dataclasses
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,15 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from axcomp.engine.engine import Engine
-from axcomp.fit.create_curves import create_cross, create_leadscrew
-from axcomp.fit.creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options
-from axcomp.fit.target_list import TargetList
+from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options, TargetList, create
 from axcomp.lists import read_machine
 from axcomp.measurement.columns import MeasurementError
 from axcomp.measurement.iso230 import evaluate
 from axcomp.model.machine import Machine
 from axcomp.plant.simulated import straightness
 
+create_leadscrew, create_cross = (partial(create, kind) for kind in ("leadscrew", "cross"))
 TARGETS = np.arange(-500.0, 501.0, 25.0)
 
 

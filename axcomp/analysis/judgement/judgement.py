@@ -15,6 +15,7 @@ from .seam import judge_seams
 
 if TYPE_CHECKING:
     from ...engine.motion import Array
+    from ...engine.trajectory import InputFile
     from ...measurement.positioning import Positioning
     from .coverage import Coverage
     from .dynamics import Demand, DynamicsResult
@@ -77,7 +78,7 @@ def judge(
     demand : Demand or None
         Feed and limits; None: dynamics are not judged.
     trajectory : mapping of str to array or None
-        As ``sweep.trajectory.read_input(path).columns``; None: coverage is not judged.
+        As ``engine.trajectory.read_input(path).columns``; None: coverage is not judged.
     tool_length : float
         For volumetric corrections, mm.
 
@@ -115,6 +116,44 @@ def judge(
         coverage = judge_coverage(machine, trajectory, positions, findings)
     said = findings.all() if reading is None else reading.located(findings.all())
     return Judgement(said, tuple(signs), tuple(dynamics), tuple(coverage), tuple(limits))
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What there is beside the lists of a machine to judge them by.
+
+    Attributes
+    ----------
+    measurements : tuple of (Positioning, str, str)
+        As ``judge`` takes them; only those whose table there is.
+    readings : tuple of Positioning
+        All measurements that could be read.
+    demand : Demand or None
+    input : InputFile or None
+        What it moves is in the machine.
+    tool_length : float
+        mm.
+    faults : tuple of str
+        A sentence for each piece of evidence that cannot be used.
+    """
+
+    measurements: tuple[tuple[Positioning, str, str], ...] = ()
+    readings: tuple[Positioning, ...] = ()
+    demand: Demand | None = None
+    input: InputFile | None = None
+    tool_length: float = 0.0
+    faults: tuple[str, ...] = ()
+
+    def judge(self, reading: Reading) -> Judgement:
+        """Judge a machine by all there is."""
+        return judge(
+            reading.machine,
+            reading,
+            measurements=self.measurements,
+            demand=self.demand,
+            trajectory=None if self.input is None else self.input.columns,
+            tool_length=self.tool_length,
+        )
 
 
 def _has_large_tables(machine: Machine) -> bool:
