@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from axcomp.kinds.delaunay import triangulate
 from hypothesis import strategies as st
 
 from axcomp.kinds import (
@@ -22,6 +21,7 @@ from axcomp.kinds import (
     Plane,
     Temperature,
 )
+from axcomp.model.delaunay import triangulate
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 POSITION_MAX = 200_000.0
