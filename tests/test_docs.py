@@ -49,7 +49,9 @@ def test_the_glossary_says_each_word_once_in_order_and_its_classes_exist() -> No
     assert len(classes) > 35
     for room, name in classes:
         files = (ROOT / "axcomp" / room).rglob("*.py")
-        assert any(re.search(rf"^(class {name}\b|{name} = )", path.read_text("utf-8"), re.MULTILINE) for path in files), name
+        assert any(
+            re.search(rf"^(class {name}\b|{name} = )", path.read_text("utf-8"), re.MULTILINE) for path in files
+        ), name
 
 
 def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
