@@ -68,6 +68,7 @@ class BacklashKind(Kind[Backlash]):
             index_max=(15,),
         ),
     )
+    values = ("amount",)
     codes = {"AXC-BACKLASH": (Severity.WARNING, "The backlash compensation is activated, but the backlash is 0")}
 
     def activation(self, compensation: Backlash | None) -> Value:

@@ -85,6 +85,7 @@ class CrossKind(Kind[Cross]):
         position(_SETPOINT, "Position of the master", both("00006"), aliases=(f"{PREFIX}table[i].sollw",)),
         position(CORRECTION, "Correction of the slave", both("00007")),
     )
+    values = ("corrections",)
     columns = (_SETPOINT, CORRECTION)
     sizes = (_LAST_INDEX,)
     reserves = _MAX_POINTS

@@ -115,6 +115,7 @@ class LeadscrewKind(Kind[Leadscrew]):
             aliases=(f"{PREFIX}table[i].sollw",),
         ),
     )
+    values = ("positive", "negative")
     columns = (POSITIVE, NEGATIVE, _SETPOINT)
     sizes = (_COUNT,)
     reserves = _MAX_POINTS

@@ -122,6 +122,7 @@ class PlaneKind(Kind[Plane]):
         Parameter(_MANUAL, "On only by command", DataType.BOOLEAN, 0, both("00030")),
         position(CORRECTION, "Correction of the slave; j counts master 2, i master 1", both("00016")),
     )
+    values = ("corrections",)
     columns = (CORRECTION,)
     sizes = _LAST_INDEX
     reserves = _MAX_POINTS
