@@ -32,7 +32,8 @@ def replay_figure(comparisons: Sequence[Comparison]) -> Figure:
         lower.plot(one.time, one.difference, color=COLOURS[2], lw=1.4)
         lower.plot(one.time[one.row], one.difference[one.row], "o", color=COLOURS[2], ms=6)
         lower.legend(loc="best", fontsize=9)
-        title = f"trace − engine: {one.difference[one.row]:+.4g}{f' {one.unit}' if one.unit else ''} at {one.time[one.row]:.6g} s"
+        worst = f"{one.difference[one.row]:+.4g} {one.unit}".rstrip()
+        title = f"trace − engine: {worst} at {one.time[one.row]:.6g} s"
         labelled(lower, title, "time [s]" if one is comparisons[-1] else "", f"[{one.unit}]" if one.unit else "")
         lower.title.set_fontsize(11)
     return figure
