@@ -103,19 +103,10 @@ def _limits(words: Sequence[str], outputs: Iterable[str]) -> dict[str, float]:
 def _print(comparisons: Sequence[Comparison]) -> None:
     from ..plot.terminal import console, figure, table
 
-    head = ["output", "largest", "rms", "", "at s", "line", ""]
-    lines = [
-        [
-            one.output,
-            figure(one.largest, 3),
-            figure(one.rms, 3),
-            one.unit,
-            figure(float(one.time[one.row]), 4),
-            str(one.line),
-            "agrees" if one.agrees else "differs",
-        ]
-        for one in comparisons
-    ]
-    console().print(table("Trace − engine", head, lines))
+    lines = []
+    for one in comparisons:
+        figures = (figure(one.largest, 3), figure(one.rms, 3), one.unit, figure(float(one.time[one.row]), 4))
+        lines.append([one.output, *figures, str(one.line), "agrees" if one.agrees else "differs"])
+    console().print(table("Trace − engine", ["output", "largest", "rms", "", "at s", "line", ""], lines))
     for one in comparisons:
         print(textwrap.fill(one.sentence(), 80, break_long_words=False))

@@ -47,8 +47,8 @@ class Comparison:
         s.
     trace, engine : array, shape (rows,)
         Values, in the unit; NaN in rows that are not compared.
-    line : int
-        Of the file, where they differ most.
+    row, line : int
+        Where they differ most, and where that stands in the file.
     places : str
         Setpoints there, of the output's axis or of all.
     within : float
@@ -62,6 +62,7 @@ class Comparison:
     time: Array
     trace: Array
     engine: Array
+    row: int
     line: int
     places: str
     within: float
@@ -71,11 +72,6 @@ class Comparison:
     def difference(self) -> Array:
         """Return trace − engine, shape (rows,)."""
         return self.trace - self.engine
-
-    @property
-    def row(self) -> int:
-        """Return where they differ most."""
-        return int(np.nanargmax(np.abs(self.difference)))
 
     @property
     def largest(self) -> float:
@@ -103,9 +99,8 @@ class Comparison:
             return f"{said}; no sign, order, ramp or delay that was tried explains it."
         best, *others = self.explanations
         also = "; ".join(f"{one.text} ({one.left:.2g}{unit})" for one in others[:3])
-        return f"{said}; with {best.text} {best.left:.2g}{unit} are left." + (
-            f" So would explain it: {also}." * bool(also)
-        )
+        said = f"{said}; with {best.text} {best.left:.2g}{unit} are left."
+        return f"{said} Explained as well by: {also}." if also else said
 
     def to_dict(self) -> dict[str, Any]:
         """Return the figures for JSON."""
@@ -135,9 +130,10 @@ def compare(
     ValueError
         There is no row to compare.
     """
-    bench = Bench(machine, trace.trajectory(), trace.cycle_time)
+    bench = Bench(machine, trace.inputs.sampled(trace.cycle_time), trace.cycle_time)
     variables = by_name(variables_of(machine))
     at = np.where(trace.at * trace.cycle_time < skip, np.nan, trace.at)
+    time = trace.start + trace.at * trace.cycle_time
     limits: Mapping[str, float] = within or {}
     readings: dict[int, list[tuple[str, Outputs]]] = {}
     found = []
@@ -148,19 +144,17 @@ def compare(
         if np.isnan(values - engine).all():
             raise ValueError(f"{name}: there is no row to compare")
         limit = limits.get(name, limits.get("", WITHIN if unit or variable.type != "Real" else WITHIN_OTHER))
-        made = Comparison(name, unit, trace.start + trace.at * trace.cycle_time, values, engine, 0, "", limit)
-        places = _places(trace, machine, bench, axis, made.row)
-        made = replace(made, line=trace.lines[made.row], places=places)
+        row = int(np.nanargmax(np.abs(values - engine)))
+        places = _places(trace, bench, axis, row)
+        made = Comparison(name, unit, time, values, engine, row, trace.lines[row], places, limit)
         if not made.agrees and axis is not None:
             if axis not in readings:
-                readings[axis] = list(bench.readings(axis))
-            tried = [(text, outputs.get(name, np.zeros(len(engine)))) for text, outputs in readings[axis]]
-            sampled = [(text, _sampled(output, at)) for text, output in tried]
-            sampled += _shifted(bench.outputs[name], variable, machine.axes[axis], at)
-            largest = [(text, np.abs(values - factor * other)) for text, other in sampled]
-            kept = [Explanation(text, float(np.nanmax(rest))) for text, rest in largest if not np.isnan(rest).all()]
-            explaining = sorted((one for one in kept if one.left <= EXPLAINED * made.largest), key=lambda one: one.left)
-            made = replace(made, explanations=tuple(explaining))
+                readings[axis] = list(bench.readings(axis, trace.outputs))
+            tried = [(text, _sampled(outputs[name], at)) for text, outputs in readings[axis]]
+            tried += _shifted(bench.outputs[name], variable, machine.axes[axis], at)
+            left = (_explanation(text, made.difference, values - factor * other) for text, other in tried)
+            kept = sorted(filter(None, left), key=lambda one: one.left)
+            made = replace(made, explanations=tuple(kept))
         found.append(made)
     return found, bench.result.notices
 
@@ -168,13 +162,22 @@ def compare(
 def _sampled(values: Array, at: Array) -> Array:
     """Return an output where rows are, NaN before the first cycle and behind the last."""
     cycles = np.arange(len(values), dtype=np.float64)
-    return np.interp(at, cycles, np.asarray(values, dtype=np.float64), left=np.nan, right=np.nan)
+    there = np.interp(at, cycles, np.asarray(values, dtype=np.float64), left=np.nan, right=np.nan)
+    sampled: Array = np.where(np.isnan(at), np.nan, there)  # interp takes NaN for the only cycle of a short trace
+    return sampled
+
+
+def _explanation(text: str, before: Array, rest: Array) -> Explanation | None:
+    """Return a reading that leaves ``rest``, None if that is too much of what there was in the same rows."""
+    both = ~np.isnan(before + rest)
+    left = float(np.max(np.abs(rest[both]), initial=0.0))
+    return Explanation(text, left) if left < EXPLAINED * np.max(np.abs(before[both]), initial=0.0) else None
 
 
 def _shifted(output: Array, variable: Variable, axis: Axis, at: Array) -> Iterator[tuple[str, Array]]:
     """Yield an output of the engine whole cycles later and earlier."""
     friction = axis.of(Friction)
-    most = min(SHIFT_MAX, len(at) // 4)
+    most = min(SHIFT_MAX, int(np.nanmax(at) - np.nanmin(at)) // 4)
     for cycles in (*range(-most, 0), *range(1, most + 1)):
         text = f"the engine's output {abs(cycles)} cycle{'s'[: abs(cycles) - 1]} {'later' if cycles > 0 else 'earlier'}"
         if variable.quantity == "current" and friction is not None and friction.delay_cycles + cycles >= 0:
@@ -182,10 +185,11 @@ def _shifted(output: Array, variable: Variable, axis: Axis, at: Array) -> Iterat
         yield text, _sampled(output, at - cycles)
 
 
-def _places(trace: Trace, machine: Machine, bench: Bench, axis: int | None, row: int) -> str:
-    """Return the setpoints in a row in words."""
-    columns = {place: trace.inputs.columns.get(bench.names[place, "setpoint"]) for place in range(len(machine.axes))}
-    shown_axes = (
-        (machine.axes[k], column) for k, column in columns.items() if axis in (None, k) and column is not None
-    )
-    return ", ".join(f"{one.name} = {column[row]:.6g} {symbol(one.unit)}" for one, column in shown_axes)
+def _places(trace: Trace, bench: Bench, axis: int | None, row: int) -> str:
+    """Return the setpoints in a row in words: of an axis, or of all."""
+    said = []
+    for place, one in enumerate(bench.machine.axes):
+        column = trace.inputs.columns.get(bench.names[place, "setpoint"])
+        if column is not None and axis in (None, place):
+            said.append(f"{one.name} = {column[row]:.6g} {symbol(one.unit)}")
+    return ", ".join(said)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -48,18 +49,15 @@ class Bench:
         axes = (axis if one.number == axis.number else one for one in self.machine.axes)
         return replace(self.machine, axes=tuple(axes))
 
-    def readings(self, place: int) -> Iterator[tuple[str, Outputs]]:
-        """Yield other readings of the lists and the manuals in words, with the outputs of an axis by them."""
+    def readings(self, place: int, wanted: Iterable[str]) -> Iterator[tuple[str, Outputs]]:
+        """Yield other readings of the lists and the manuals in words, with wanted outputs of an axis by them."""
         axis = self.machine.axes[place]
-        changes = [
-            *((text, self.having(other)) for text, other in _other_axes(axis)),
-            *((text, self.having(other)) for one in self.machine.axes for text, other in _folding(one)),
-            *self._volumes(place),
-        ]
-        for text, machine in changes:
-            yield text, self.run(machine)
-        yield from self._corrected_masters(place)
-        yield from self._linear_ramps(place)
+        nothing = np.zeros(len(self.result))
+        axes = [*_other_axes(axis), *(other for one in self.machine.axes for other in _folding(one))]
+        machines = [*((text, self.having(other)) for text, other in axes), *self._volumes(place)]
+        others = ((text, self.run(machine)) for text, machine in machines)
+        for text, outputs in chain(others, self._corrected_masters(place), self._linear_ramps(place)):
+            yield text, {name: outputs.get(name, nothing) for name in wanted}
 
     def _volumes(self, place: int) -> Iterator[tuple[str, Machine]]:
         """Yield the machine with one thing about a volumetric compensation of the axis otherwise."""
@@ -95,7 +93,7 @@ class Bench:
         for one in axis.compensations:
             name = self.names.get((place, f"{one.kind}.correction"), "")
             low: Any = 0.0
-            high: Any
+            high: Any = 0.0
             if isinstance(one, Leadscrew) and one.negative is not None and axis.backlash_cycles > 1:
                 low = self.run(self.having(axis.having(replace(one, positive=one.negative))))[name]
                 high = self.run(self.having(axis.having(replace(one, negative=one.positive))))[name]
@@ -121,10 +119,8 @@ def _other_axes(axis: Axis) -> Iterator[tuple[str, Axis]]:
     for one in axis.compensations:
         what = f"the {one.kind} compensation"
         yield f"the sign of {what} inverted", axis.having(KINDS[one.kind].scaled(one, -1.0))
-        yield (
-            f"{what} off",
-            replace(axis, compensations=tuple(other for other in axis.compensations if other is not one)),
-        )
+        others = tuple(other for other in axis.compensations if other is not one)
+        yield f"{what} off", replace(axis, compensations=others)
         if one.n_cycles > 1:
             text = f"{what} switched at once (n_cycles 0 instead of {one.n_cycles})"
             yield text, axis.having(replace(one, n_cycles=0))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ import numpy as np
 
 from ...engine.engine import Engine
 from ...engine.motion import Array
-from ...engine.trajectory import TIME, Columns, InputError, InputFile, read_table
+from ...engine.trajectory import TIME, InputError, InputFile, read_table
 from ...interface.variable import Variable
 from ...measurement.columns import ANGLES, LENGTHS
 from ...model.machine import CYCLE_TIME, CYCLE_TIME_MAX, Machine
@@ -21,32 +20,30 @@ ON_TIME = 0.25
 """Share of a cycle by which the instants of the rows may be off: stamps are rounded."""
 
 _BRACKET = re.compile(r"(.*?)\s*[\[(]([^\[\]()]*)[\])]\s*\Z")
-_UNIT = re.compile(r"\s*(\d*\.?\d*)\s*([a-z]*)\s*(?:/\s*(s2|s|min))?\s*\Z")
+_UNIT = re.compile(r"\s*(\d+\.?\d*)?\s*([a-z]*)\s*(?:/\s*(s2|s|min))?\s*\Z")
 _BASES = {
     "mm": {name: factor / LENGTHS["mm"] for name, factor in LENGTHS.items()},
     "deg": {name: factor / ANGLES["deg"] for name, factor in ANGLES.items()},
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6},
 }
-_PER = {"min": ("s", 1.0 / 60.0), "s": ("s", 1.0), "s2": ("s2", 1.0)}
-_PLAIN = str.maketrans({"µ": "u", "μ": "u", "²": "2", "^": None, ",": "."})
+_PER = {"min": ("s", 1.0 / 60.0), "s": ("s", 1.0), "s2": ("s2", 1.0), None: ("", 1.0)}
+_PLAIN = str.maketrans({"µ": "u", "μ": "u", "²": "2", "^": None, ",": ".", "°": "deg"})
 
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """A recording.
+    """A recording: columns that the engine takes, and columns to compare with what it puts out.
 
     Attributes
     ----------
     inputs : InputFile
-        Columns that the engine takes, in its units.
+        In the engine's units; without instants if each row is a cycle.
     outputs : mapping of str to array, shape (rows,)
-        Columns to compare with what it puts out.
+        In the engine's units.
     lines : tuple of int
         Of the file, where each row stands.
-    start : float
-        Instant of the first row, s.
-    cycle_time : float
-        s.
+    start, cycle_time : float
+        Instant of the first row, and the controller's cycle, s.
     notes : tuple of str
         How the file was taken, a sentence each.
     """
@@ -64,17 +61,12 @@ class Trace:
         if self.inputs.time is None:
             return np.arange(len(self.lines), dtype=np.float64)
         cycles = (self.inputs.time - self.inputs.time[0]) / self.cycle_time
-        whole = np.round(cycles)
-        at: Array = np.where(np.abs(cycles - whole) < 1e-6, whole, cycles)
+        at: Array = np.where(np.abs(cycles - np.round(cycles)) < 1e-6, np.round(cycles), cycles)
         return at
-
-    def trajectory(self) -> Columns:
-        """Return the inputs, a value a cycle."""
-        return self.inputs.sampled(self.cycle_time)
 
 
 def read_trace(path: Path, machine: Machine, mapping: Sequence[str] = (), cycle_time: float | None = None) -> Trace:
-    """Read a trace.
+    """Read a trace; InputError, a sentence that names the file, if it or the mapping cannot be used.
 
     Parameters
     ----------
@@ -87,75 +79,58 @@ def read_trace(path: Path, machine: Machine, mapping: Sequence[str] = (), cycle_
         called as in the engine needs none, and is left out by ``X.correction=``.
     cycle_time : float or None
         Of the controller, s; None: the distance of the rows.
-
-    Raises
-    ------
-    InputError
-        The file or the mapping cannot be used: a sentence that names the file.
     """
     if cycle_time is not None and not 0.0 < cycle_time < CYCLE_TIME_MAX:
         raise InputError(f"--cycle-time: {cycle_time:g} s is no cycle time.")
     table = read_table(path)
+    there = f"The columns are {', '.join(table.names)}."
     known = {v.name: v for v in Engine(machine).variables} | {TIME: Variable(TIME, 0, "input", 0.0, "", "s")}
-    chosen = _chosen(path, table.names, mapping, known)
-    columns = {}
-    for name, (place, unit) in chosen.items():
+    columns, used = {}, set()
+    for name, (title, unit) in _chosen(table.names, mapping, known).items():
         factor = _factor(unit, known[name].unit)
+        if title not in table.names:
+            raise InputError(f"{path}: There is no column {title!r}. {there}")
         if factor is None:
-            wanted = known[name].unit
-            raise InputError(
-                f"{path}: {unit!r} is no unit of {name}; it counts in {wanted}, or in um, arcsec and so on."
-            )
-        columns[name] = factor * table.numbers(place, name)
+            raise InputError(f"{path}: {unit!r} is no unit of {name}, which counts in {known[name].unit}, um, mdeg …")
+        used.add(title)
+        columns[name] = factor * table.numbers(table.names.index(title), name)
     time = columns.pop(TIME, None)
     outputs = {name: values for name, values in columns.items() if known[name].causality == "output"}
     inputs = {name: values for name, values in columns.items() if name not in outputs}
-    if not any(name.endswith(".setpoint") for name in inputs):
-        raise InputError(
-            f"{path}: There is no setpoint in it: --map X.setpoint=COLUMN names one. {_columns(table.names)}"
-        )
-    if not outputs:
-        raise InputError(f"{path}: There is nothing to compare: --map X.correction=COLUMN. {_columns(table.names)}")
-    used = {place for place, _ in chosen.values()}
-    ignored = [name for place, name in enumerate(table.names) if place not in used]
-    notes = [f"Columns that are not used: {', '.join(ignored)}."] if ignored else []
+    if not outputs or not any(name.endswith(".setpoint") for name in inputs):
+        example = "X.setpoint=COLUMN,X.correction=COLUMN"
+        raise InputError(f"{path}: A setpoint and an output are needed at least: --map {example}. {there}")
     if time is not None and (np.diff(time) <= 0.0).any():
         line = table.lines[int(np.argmax(np.diff(time) <= 0.0)) + 1]
-        raise InputError(f"{path}:{line}: {TIME} must ascend from row to row; {TIME}= leaves it out.")
-    start = 0.0 if time is None else float(time[0])
+        raise InputError(f"{path}:{line}: {TIME} must ascend from row to row; --map {TIME}= leaves it out.")
+    ignored = [title for title in table.names if title not in used]
+    notes = [f"Columns that are not used: {', '.join(ignored)}."] if ignored else []
+    needed = {name for output in outputs for name in known[output].depends_on or () if name.endswith(".setpoint")}
+    if absent := sorted(needed - inputs.keys()):
+        notes.append(f"Not in the trace, taken as 0, though outputs depend on it: {', '.join(absent)}.")
     cycle, kept = _clock(time, cycle_time, notes)
+    start = 0.0 if time is None else float(time[0])
     return Trace(InputFile(inputs, kept), outputs, table.lines, start, cycle, tuple(notes))
 
 
-def _columns(names: Sequence[str]) -> str:
-    return f"The columns are {', '.join(names)}."
-
-
-def _chosen(
-    path: Path, names: Sequence[str], mapping: Sequence[str], known: Mapping[str, Variable]
-) -> dict[str, tuple[int, str]]:
-    """Return place and unit of the column of each input and output."""
-    titles: dict[str, tuple[int, str]] = {}
-    for place, title in enumerate(names):
-        found = None if title in known else _BRACKET.match(title)
-        titles[title] = (place, found[2] if found else "")
-        if found:
-            titles.setdefault(found[1], titles[title])
-    chosen = {name: titles[name] for name in known if name in titles}
+def _chosen(titles: Sequence[str], mapping: Sequence[str], known: Mapping[str, Variable]) -> dict[str, tuple[str, str]]:
+    """Return title and unit of the column of each input and output."""
+    columns = {title: (title, "") for title in titles}
+    for title in titles:
+        if title not in known and (found := _BRACKET.match(title)):
+            columns[title] = (title, found[2])
+            columns.setdefault(found[1], columns[title])
+    chosen = {name: columns[name] for name in known if name in columns}
     for word in filter(str.strip, ",".join(mapping).split(",")):
         name, equals, column = (part.strip() for part in word.partition("="))
-        if not equals:
-            raise InputError(f"--map: “{word}” is no NAME=COLUMN.")
-        if name not in known:
-            near = difflib.get_close_matches(name, known, 4, 0.5) or list(known)[:8]
-            raise InputError(f"--map: {name} is neither an input nor an output; there are {', '.join(near)} …")
+        if not equals or name not in known:
+            quantities = ", ".join(known)
+            raise InputError(f"--map: “{word}” is no NAME=COLUMN; the names are {quantities}")
         found = _BRACKET.match(column)
-        if column in titles:
-            chosen[name] = titles[column]
-        elif found and found[1] in titles:
-            chosen[name] = (titles[found[1]][0], found[2])
+        if found and column not in columns:
+            chosen[name] = (columns.get(found[1], (found[1], ""))[0], found[2])
         elif column:
-            raise InputError(f"{path}: There is no column {column!r}. {_columns(names)}")
+            chosen[name] = columns.get(column, (column, ""))
         else:
             chosen.pop(name, None)
     return chosen
@@ -163,17 +138,14 @@ def _chosen(
 
 def _factor(written: str, unit: str) -> float | None:
     """Return what a unit is worth in ``unit``: mm, 0.1um, deg/min, or a bare factor; None if it is none of it."""
-    found = _UNIT.match(written.replace("°", "deg").translate(_PLAIN).lower())
-    if found is None:
-        return None if unit else 1.0
-    factor = float(found[1] or 1.0) if found[1] != "." else 1.0
+    found = _UNIT.match(written.translate(_PLAIN).lower())
     base, _, per = unit.partition("/")
-    if found[2] and base:
-        given, share = _PER.get(found[3], ("", 1.0))
-        if found[2] not in _BASES[base] or given != per:
-            return None
-        factor *= _BASES[base][found[2]] * share
-    return factor
+    if found is None or not (base and found[2]):
+        return float(found[1] or 1.0) if found else None if base else 1.0
+    given, share = _PER[found[3]]
+    return (
+        float(found[1] or 1.0) * _BASES[base][found[2]] * share if found[2] in _BASES[base] and given == per else None
+    )
 
 
 def _clock(time: Array | None, wanted: float | None, notes: list[str]) -> tuple[float, Array | None]:

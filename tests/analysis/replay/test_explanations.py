@@ -256,3 +256,14 @@ def test_what_nothing_explains_is_said(tmp_path: Path) -> None:
     found = compared(tmp_path, machine, trace)["X.correction"]
     assert found.explanations == ()
     assert "no sign, order, ramp or delay that was tried explains it" in found.sentence()
+
+
+def test_a_start_that_differs_is_not_taken_for_a_delay(tmp_path: Path) -> None:
+    """A delay of three cycles cannot be compared in the first three: what differs there is not explained by it."""
+    machine, columns = example()
+    trace = recorded(machine, columns, "X.correction")
+    trace["X.correction"][:3] += 0.01
+    found = compared(tmp_path, machine, trace)["X.correction"]
+    assert found.row < 3
+    assert found.explanations == ()
+    assert compared(tmp_path, machine, trace, skip=0.003)["X.correction"].agrees
