@@ -69,7 +69,7 @@ def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
 def test_the_commands_on_the_pages_are_understood() -> None:
     lines = [line for page in PAGES for line in re.findall(r"^ {4}axcomp (.+)", page.read_text("utf-8"), re.MULTILINE)]
     shown = {line.split()[0] for line in lines}
-    assert shown >= {"show", "check", "measure", "create", "convert", "budget", "report", "sweep", "run"}
+    assert shown >= {"show", "check", "measure", "create", "convert", "budget", "report", "sweep", "run", "replay"}
     for line in lines:
         parser = argparse.ArgumentParser(exit_on_error=False)
         subparsers = parser.add_subparsers(required=True)
@@ -94,6 +94,18 @@ def test_the_sweep_and_the_program_on_the_page_run(
     Path("program.csv").write_text(program.replace(" " * 4, ""), encoding="utf-8")
     assert main(["run", "program.csv", "--machine", "models/three_axis", "--output", "result.csv"]) == 0
     assert "3 cycles" in capsys.readouterr().out
+
+
+def test_the_trace_on_the_page_differs_as_it_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "workbench.md").read_text(encoding="utf-8")
+    (trace, said) = re.findall(r"```csv\n(.*?)```\n\n```text\n(.*?)```", page, re.DOTALL)[0]
+    command = re.findall(r"^ {4}axcomp (replay .+)", page, re.MULTILINE)[0]
+    Path("trace.csv").write_text(trace, encoding="utf-8")
+    assert main(shlex.split(command)) == 1
+    assert capsys.readouterr().out.endswith(said)
 
 
 @pytest.mark.slow

@@ -139,13 +139,51 @@ def completed(columns: Columns, known: set[str], cycle_time: float) -> Columns:
     return found
 
 
-def read_input(path: Path) -> InputFile:
-    """Read a table with the inputs' names in its first row, as FMPy takes it.
+@dataclass(frozen=True)
+class TextTable:
+    """A table as text; numbers are made of the columns that are asked for.
+
+    Attributes
+    ----------
+    path : Path
+    names : tuple of str
+        Of the columns, each once.
+    lines : tuple of int
+        Where each row stands.
+    rows : tuple of sequences of str
+        At least one, all as long as ``names``.
+    comma : bool
+        Commas stand for decimal points, for they do not separate cells.
+    """
+
+    path: Path
+    names: tuple[str, ...]
+    lines: tuple[int, ...]
+    rows: tuple[Sequence[str], ...]
+    comma: bool
+
+    def numbers(self, place: int, name: str) -> Array:
+        """Return a column, shape (rows,); InputError, with ``name`` as what it is, for a cell that is no number."""
+        return np.array([self._number(line, name, row[place]) for line, row in zip(self.lines, self.rows, strict=True)])
+
+    def _number(self, line: int, name: str, cell: str) -> float:
+        word = cell.strip().lower()
+        try:
+            value = _BOOLEANS[word] if word in _BOOLEANS else float(word.replace(",", ".") if self.comma else word)
+        except ValueError:
+            raise InputError(f"{self.path}:{line}: {cell!r} is no number, as {name} has to be.") from None
+        if name == TIME and not math.isfinite(value):
+            raise InputError(f"{self.path}:{line}: {cell!r} is no time in s.")
+        return value
+
+
+def read_table(path: Path) -> TextTable:
+    """Read a table with names in its first row; cells are separated by semicolons, tabs or commas.
 
     Raises
     ------
     InputError
-        The file cannot be read, a row is incomplete, a cell is no number, or time does not ascend.
+        The file cannot be read, a row is incomplete, or there is none.
     """
     try:
         text = decode(path.read_bytes())
@@ -153,9 +191,10 @@ def read_input(path: Path) -> InputFile:
         raise InputError(f"{path}: The file cannot be read: {error.strerror or error}.") from None
     if text is None:
         raise InputError(f"{path}: The file is no text.")
-    separator = ";" if ";" in text.split("\n", 1)[0] else ","
+    separator = next((one for one in ";\t" if one in text.split("\n", 1)[0]), ",")
     names: list[str] = []
-    rows: list[list[float]] = []
+    rows: list[list[str]] = []
+    lines: list[int] = []
     for line, cells in enumerate(csv.reader(io.StringIO(text), delimiter=separator), 1):
         if not any(cell.strip() for cell in cells):
             continue
@@ -166,27 +205,29 @@ def read_input(path: Path) -> InputFile:
             continue
         if len(cells) != len(names):
             raise InputError(f"{path}:{line}: There are {len(cells)} cells for {len(names)} columns.")
-        rows.append([_number(path, line, name, cell) for name, cell in zip(names, cells, strict=True)])
+        rows.append(cells)
+        lines.append(line)
     if not rows:
         raise InputError(f"{path}: There is no row of inputs in it.")
-    columns = dict(zip(names, np.array(rows).T, strict=True))
+    return TextTable(path, tuple(names), tuple(lines), tuple(rows), separator != ",")
+
+
+def read_input(path: Path) -> InputFile:
+    """Read a table with the inputs' names in its first row, as FMPy takes it.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, a row is incomplete, a cell is no number, or time does not ascend.
+    """
+    table = read_table(path)
+    columns = {name: table.numbers(place, name) for place, name in enumerate(table.names)}
     time = columns.pop(TIME, None)
     if not columns:
         raise InputError(f"{path}: There is no input besides {TIME}.")
     if time is not None and (np.diff(time) <= 0.0).any():
         raise InputError(f"{path}: {TIME} must ascend from row to row.")
     return InputFile(columns, time)
-
-
-def _number(path: Path, line: int, name: str, cell: str) -> float:
-    word = cell.strip().lower()
-    try:
-        value = _BOOLEANS[word] if word in _BOOLEANS else float(word)
-    except ValueError:
-        raise InputError(f"{path}:{line}: {cell!r} is no number, as {name} has to be.") from None
-    if name == TIME and not math.isfinite(value):
-        raise InputError(f"{path}:{line}: {cell!r} is no time in s.")
-    return value
 
 
 def _cycles(duration: float, cycle_time: float) -> int:
