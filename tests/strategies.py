@@ -1,6 +1,6 @@
 """Hypothesis strategies for machines: whatever the lists can hold, and nothing else.
 
-``machines()`` draws valid machines with all five kinds of compensation; every one compiles, and reads back from its
+``machines()`` draws valid machines with all kinds of compensation; every one compiles, and reads back from its
 lists. ``axes``, ``leadscrews`` and the others draw the parts.
 """
 
@@ -10,11 +10,13 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
+from axcomp.kinds.backlash import Backlash
 from axcomp.kinds.cross import Cross
 from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
 from axcomp.kinds.friction import Friction
 from axcomp.kinds.leadscrew import Leadscrew
 from axcomp.kinds.plane import Plane
+from axcomp.kinds.temperature import Temperature
 from axcomp.model.delaunay import triangulate
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
@@ -176,6 +178,23 @@ def crosstalk_curves(draw: st.DrawFn, masters: Sequence[int]) -> CrosstalkCurve:
     )
 
 
+@st.composite
+def temperatures(draw: st.DrawFn) -> Temperature:
+    """Temperature compensations."""
+    return Temperature(
+        draw(positions()),
+        draw(corrections()),
+        draw(numbers(-1e-3, 1e-3, per_unit=1_000_000)),
+        n_cycles=draw(st.integers(1, 19)),
+    )
+
+
+@st.composite
+def backlashes(draw: st.DrawFn) -> Backlash:
+    """Backlash compensations."""
+    return Backlash(draw(numbers(-3.2, 3.2)), draw(st.sampled_from((1, 2))))
+
+
 NAMES = st.text(st.characters(codec="utf-8", exclude_categories=["C", "Z"], exclude_characters='"“”″'), min_size=1).map(
     lambda name: name[:16]
 )
@@ -206,7 +225,9 @@ def axes(draw: st.DrawFn, number: int, name: str, kinds: dict[int, AxisType]) ->
         cross=draw(st.none() | crosses(list(kinds))),
         plane=draw(st.none() | planes(turning)) if turning else None,
         crosstalk=crosstalk,
+        temperature=None if axis_type is AxisType.SPINDLE else draw(st.none() | temperatures()),
         leadscrew=draw(st.none() | leadscrews(modulo)),
+        backlash=draw(st.none() | backlashes()),
         friction=draw(st.none() | frictions()),
     )
 

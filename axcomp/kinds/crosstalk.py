@@ -379,7 +379,9 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
 
 
 def _adaptation(crosstalk: Crosstalk | CrosstalkCurve) -> tuple[int | None, ...]:
-    return (crosstalk.adaptation1, crosstalk.adaptation2) if isinstance(crosstalk, Crosstalk) else ()
+    if isinstance(crosstalk, CrosstalkCurve):
+        return ()
+    return (crosstalk.adaptation1, crosstalk.adaptation2)[: crosstalk.mode - 1]
 
 
 def _translatory(source: TableReader, name: str, purpose: str) -> Any:

@@ -49,13 +49,31 @@ class TestOneTest:
     def test_the_direction_is_the_masters_last_motion_and_at_first_positive(
         self, a: float, positive: float, negative: float
     ) -> None:
-        v = np.array([0.0, 0.0, 5.0, 0.0, -5.0, 0.0, 0.0, 1e-9, 0.0, -3.0])
+        # in mm/s: 1e-7 is 1e-10 mm a cycle, which is no motion; 2e-6 is one
+        v = np.array([0.0, -1e-7, 5.0, 0.0, -5.0, 0.0, 0.0, 1e-7, 0.0, 2e-6, 0.0, -2e-6, 1e-7, -3.0])
         run = drive(
             machine(crosstalk(1, [self.TEST], velocity_dependent=True)),
             {"X.velocity": v, "X.acceleration": a},
         )
-        expected = np.where(forward(np.sign(v), 1) > 0, positive, negative)
+        moves = np.where(np.abs(v) * 1e-3 >= 1e-9, np.sign(v), 0)
+        expected = np.where(forward(moves, 1) > 0, positive, negative)
         assert run["Y.crosstalk_correction"] == pytest.approx(expected, abs=1e-17)
+
+    def test_a_master_without_velocity_goes_the_way_its_setpoint_goes(self) -> None:
+        steps = np.array([0.0, -1e-10, 0.5, 0.0, -0.25, 0.0, 1e-10, 0.0, 3.0, 0.0, -1e-6])
+        run = drive(
+            machine(crosstalk(1, [self.TEST], velocity_dependent=True)),
+            {"X.setpoint": 7.0 + np.cumsum(steps), "X.acceleration": 2000.0},
+        )
+        expected = np.where(forward(np.where(np.abs(steps) > 1e-9, np.sign(steps), 0), 1) > 0, 0.010, 0.020)
+        assert run["Y.crosstalk_correction"].tolist() == expected.tolist()
+
+    def test_the_velocity_decides_where_the_setpoint_goes_the_other_way(self) -> None:
+        run = drive(
+            machine(crosstalk(1, [self.TEST], velocity_dependent=True)),
+            {"X.setpoint": [0.0, 1.0, 2.0, 3.0], "X.velocity": [0.0, -5.0, 5.0, 0.0], "X.acceleration": 2000.0},
+        )
+        assert run["Y.crosstalk_correction"].tolist() == [0.010, 0.020, 0.010, 0.010]
 
     def test_without_velocity_dependence_the_positive_values_serve_both_directions(self) -> None:
         run = drive(machine(crosstalk(1, [self.TEST])), {"X.velocity": [-5.0, -5.0], "X.acceleration": [2e3, -16e2]})

@@ -10,13 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
+from axcomp.interface.slot import slot_in
+from axcomp.kernel.compensations import CROSS
 from axcomp.kernel.cycle import cycle
 from axcomp.kernel.fit import tables_fit
 from axcomp.kernel.record import Vec, fields_of, zero
 from axcomp.kernel.records import Outputs, State, Tables
+from axcomp.kinds.backlash import Backlash
+from axcomp.kinds.temperature import Temperature
 from axcomp.lists import read_machine
-from axcomp.model.machine import Machine
-from axcomp.runtime.compile import compile_tables
+from axcomp.model.machine import Axis, Machine
+from axcomp.runtime.compile import Compiled, compile_tables
 from axcomp.runtime.runtime import initial_inputs
 
 MODELS = Path(__file__).parents[2] / "models"
@@ -54,90 +58,124 @@ def set_number(container: Any, key: Any, value: int) -> None:
         setattr(container, key, value)
 
 
-def survives(tables: Tables) -> None:
+def survives(tables: Tables, pool: Vec) -> None:
     """Run a few cycles; an index outside its list raises."""
     inputs, state, outputs = initial_inputs(tables), zero(State), zero(Outputs)
     for k in range(4):
         for axis in inputs.axis:
             axis.setpoint = (-1) ** k * 37.0 * k
             axis.velocity, axis.acceleration = 5.0 * (-1) ** k, 1000.0 * (-1) ** k
-        cycle(tables, state, inputs, outputs)
+        cycle(tables, pool, state, inputs, outputs)
 
 
 @pytest.mark.parametrize("model", ["three_axis", "five_axis", "rotary_table"])
 def test_compiled_tables_fit_and_a_shorter_pool_does_not(model: str) -> None:
-    tables = compile_tables(read_machine(MODELS / model).machine)
-    assert tables_fit(tables, len(tables.pool))
-    assert not tables_fit(tables, len(tables.pool) - 1)
+    tables, pool = compile_tables(read_machine(MODELS / model).machine)
+    assert tables_fit(tables, pool, len(pool))
+    assert not tables_fit(tables, pool, len(pool) - 1)
 
 
 @pytest.mark.parametrize("model", ["three_axis", "five_axis"])
 @settings(max_examples=150)
 @given(data=st.data())
 def test_whatever_number_is_damaged_tables_that_fit_read_nothing_else(model: str, data: st.DataObject) -> None:
-    tables = compiled(model)
+    tables, pool = compiled(model)
     places = list(whole_numbers(tables))
     container, key = places[data.draw(st.integers(0, len(places) - 1))]
     old = container[key] if isinstance(container, list) else getattr(container, key)
     set_number(container, key, data.draw(st.sampled_from((*WRONG, old + 1, old - 1, 0, 5))))
-    if tables_fit(tables, len(tables.pool)) and len(initial_inputs(tables).axis) > 0:
-        survives(tables)
+    if tables_fit(tables, pool, len(pool)) and len(initial_inputs(tables).axis) > 0:
+        survives(tables, pool)
 
 
 @settings(max_examples=30)
 @given(machines())
 def test_any_compiled_machine_fits(machine: Machine) -> None:
-    tables = compile_tables(machine)
-    assert tables_fit(tables, len(tables.pool))
+    tables, pool = compile_tables(machine)
+    assert tables_fit(tables, pool, len(pool))
 
 
-def test_each_of_these_is_refused() -> None:
-    damages: list[tuple[str, Any]] = [
-        ("cycle_time", 0.0),
-        ("axis_count", 33),
-        ("volumetrics", 6),
-        ("axis.0.shift_cycles", 0),
-        ("axis.0.plane.master1", 3),
-        ("axis.0.plane.interval1", 0.0),
-        ("axis.0.plane.points1", 10**9),
-        ("axis.0.leadscrew.positive.points", 0),
-        ("axis.0.leadscrew.negative.y", -1),
-        ("axis.0.leadscrew.reversal_cycles", 0),
-        ("axis.0.friction.delay", 249),
-        ("axis.0.friction.lookahead", 5),
-        ("axis.1.crosstalk.variant", 9),
-        ("axis.1.crosstalk.deceleration", 0.0),
-        ("axis.1.crosstalk.values", 10**7),
-        ("axis.2.cross.curve.x", 10**7),
-        ("axis.2.cross.switching.cycles", 21),
-    ]
-    for path, value in damages:
-        tables = compiled("three_axis")
-        *parents, name = path.split(".")
-        record: Any = tables
-        for parent in parents:
-            record = record[int(parent)] if parent.isdigit() else getattr(record, parent)
-        assert getattr(record, name) != value
-        setattr(record, name, value)
-        assert not tables_fit(tables, len(tables.pool)), path
+NAN, INF = float("nan"), float("inf")
+DAMAGES: list[tuple[str, Any]] = [
+    ("cycle_time", 0.0),
+    ("axis_count", 33),
+    ("volumetrics", 6),
+    ("axis[0].shift_cycles", 0),
+    ("axis[0].first", -1),
+    ("axis[0].numbers", 10**7),
+    ("axis[0].compensation.plane.master1.axis", 3),
+    ("axis[0].compensation.plane.master2.axis", -1),
+    ("axis[0].compensation.plane.master1.start", NAN),
+    ("axis[0].compensation.plane.master2.period", -1.0),
+    ("axis[0].compensation.plane.interval1", 0.0),
+    ("axis[0].compensation.plane.points1", 10**9),
+    ("axis[0].compensation.leadscrew.positive.points", 0),
+    ("axis[0].compensation.leadscrew.negative.y", -1),
+    ("axis[0].compensation.leadscrew.reversal_cycles", 0),
+    ("axis[0].compensation.leadscrew.modulo_range", NAN),
+    ("axis[0].compensation.friction.delay", 249),
+    ("axis[0].compensation.friction.lookahead", 5),
+    ("axis[1].compensation.crosstalk.variant", 9),
+    ("axis[1].compensation.crosstalk.deceleration", 0.0),
+    ("axis[1].compensation.crosstalk.values", 10**7),
+    ("axis[1].compensation.crosstalk.adaptation1.axis", 3),
+    ("axis[1].compensation.crosstalk.adaptation2.period", INF),
+    ("axis[2].compensation.cross.curve.x", 10**7),
+    (f"axis[2].switching[{CROSS}].cycles", 21),
+    (f"axis[2].switching[{CROSS}].cycles", 0),
+    (f"axis[2].switching[{CROSS}].blend_cycles", 21),
+    (f"axis[2].switching[{CROSS}].blend_cycles", 0),
+    (f"axis[2].switching[{CROSS}].needs", 4),
+    (f"axis[2].switching[{CROSS}].need[0]", 3),
+]
+
+
+def damaged(tables: Tables, path: str, value: Any) -> None:
+    slot = slot_in(tables, path)
+    assert slot is not None
+    assert slot.get() != value
+    slot.set(value)
+
+
+@pytest.mark.parametrize(("path", "value"), DAMAGES)
+def test_each_of_these_is_refused(path: str, value: Any) -> None:
+    tables, pool = compiled("three_axis")
+    damaged(tables, path, value)
+    assert not tables_fit(tables, pool, len(pool))
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("temperature.position", NAN),
+        ("temperature.offset", INF),
+        ("temperature.coefficient", -INF),
+        ("backlash.amount", NAN),
+        ("backlash.reversal_cycles", 0),
+        ("backlash.reversal_cycles", 21),
+    ],
+)
+def test_damaged_numbers_of_kinds_without_tables_are_refused(path: str, value: Any) -> None:
+    axis = Axis(1, "X", temperature=Temperature(1.0, 0.1, 1e-5), backlash=Backlash(0.01), backlash_cycles=3)
+    tables, pool = compile_tables(Machine((axis,)))
+    assert tables_fit(tables, pool, 0)
+    damaged(tables, f"axis[0].compensation.{path}", value)
+    assert not tables_fit(tables, pool, 0)
 
 
 def test_abscissae_that_do_not_ascend_are_refused() -> None:
-    tables = compiled("three_axis")
-    tables.pool[tables.axis[2].cross.curve.x + 1] = tables.pool[tables.axis[2].cross.curve.x]
-    assert not tables_fit(tables, len(tables.pool))
+    tables, pool = compiled("three_axis")
+    first = tables.axis[2].compensation.cross.curve.x
+    pool[first + 1] = pool[first]
+    assert not tables_fit(tables, pool, len(pool))
 
 
-_COMPILED: dict[str, Tables] = {}
+_COMPILED: dict[str, Compiled] = {}
 
 
-def compiled(model: str) -> Tables:
-    """Return fresh tables of a model whose pool is guarded."""
+def compiled(model: str) -> Compiled:
+    """Return fresh tables of a model, and a pool that is guarded."""
     if model not in _COMPILED:
         _COMPILED[model] = compile_tables(read_machine(MODELS / model).machine)
-    tables = copy.deepcopy(_COMPILED[model])
-    pool = Guarded(tables.pool)
-    tables.pool = pool
-    for axis in tables.axis:
-        axis.pool = pool
-    return tables
+    tables, pool = _COMPILED[model]
+    return Compiled(copy.deepcopy(tables), Guarded(pool))

@@ -53,8 +53,22 @@ def motion(cycles: int, rng: np.random.Generator) -> tuple[NDArray[np.float64], 
 
 
 class TestCurve:
+    @pytest.mark.parametrize("v", [1e-300, 1e-15, 9e-7])
+    def test_what_rounding_leaves_of_a_velocity_is_standstill(self, v: float) -> None:
+        # 1e-6 mm/s are 1e-9 mm a cycle
+        run = drive(machine(friction(scaling=1.3)), {"X.velocity": [v, -v, 5.0, -v, v]})
+        expected = 1.3 * np.interp(5.0, VELOCITIES, CURRENTS)
+        assert run["X.current"] == pytest.approx([0.0, 0.0, expected, 0.0, 0.0], abs=1e-15)
+
+    def test_residue_of_a_velocity_is_no_reversal(self) -> None:
+        v = np.array([5.0, 5.0, -1e-15, 1e-15, 5.0, 5.0])
+        run = drive(machine(friction(position_delay=0.005)), {"X.velocity": v, "X.setpoint": np.cumsum(v) * T})
+        full = np.interp(5.0, VELOCITIES, CURRENTS)
+        # the start counts as a reversal, at the first setpoint
+        assert run["X.current"] == pytest.approx([0.0, full, 0.0, 0.0, full, full], abs=1e-14)
+
     def test_it_is_numpys_interpolation_with_the_sign_of_the_velocity(self, rng: np.random.Generator) -> None:
-        v = np.concatenate([VELOCITIES, np.negative(VELOCITIES), rng.uniform(-80, 80, 300), [1e-300, -1e-300, 9e14]])
+        v = np.concatenate([VELOCITIES, np.negative(VELOCITIES), rng.uniform(-80, 80, 300), [2e-6, -2e-6, 9e14]])
         run = drive(machine(friction(scaling=1.3)), {"X.velocity": v})
         assert run["X.current"] == pytest.approx(
             1.3 * np.sign(v) * np.interp(np.abs(v), VELOCITIES, CURRENTS), abs=1e-15

@@ -208,11 +208,22 @@ class TestModulo:
         run = drive(self.lists(), {"C.setpoint": c})
         assert run["C.leadscrew_correction"][1:] == pytest.approx([run["C.leadscrew_correction"][1]] * 5, abs=1e-9)
 
-    def test_without_modulo_a_table_holds_its_ends_even_on_a_modulo_axis(self) -> None:
+    def test_without_modulo_a_table_holds_its_ends_within_the_turn_that_is_centred_on_it(self) -> None:
+        # its middle is 175: the turn is −5 … 355, and the ends are held there
         table = Leadscrew(self.POSITIONS, self.TABLE.positive)
         axis = Axis(4, "C", AxisType.ROTARY, ModuloRange(), leadscrew=table)
-        run = drive(Machine((axis,)), {"C.setpoint": [340.0, 355.0, 365.0, 1000.0]})
-        assert run["C.leadscrew_correction"].tolist() == [-0.013] * 4
+        c = np.array([340.0, 354.9, 355.1, 365.0, 1000.0, 280.0, -80.0, 720.0 + 340.0])
+        run = drive(Machine((axis,)), {"C.setpoint": c})
+        expected = np.interp((c + 5.0) % 360.0 - 5.0, self.POSITIONS, self.TABLE.positive)
+        assert run["C.leadscrew_correction"] == pytest.approx(-expected, abs=1e-14)
+        assert run["C.leadscrew_correction"][:4].tolist() == [-0.013, -0.013, -0.010, -0.010]
+
+    def test_without_modulo_on_an_axis_that_does_not_count_modulo_nothing_is_folded(self) -> None:
+        table = Leadscrew(self.POSITIONS, self.TABLE.positive)
+        run = drive(
+            Machine((Axis(4, "C", AxisType.ROTARY, leadscrew=table),)), {"C.setpoint": [340.0, 365.0, 1000.0, -80.0]}
+        )
+        assert run["C.leadscrew_correction"].tolist() == [-0.013, -0.013, -0.013, -0.010]
 
     def test_whole_turns_change_nothing(self, rng: np.random.Generator) -> None:
         c = 350.0 + np.cumsum(rng.uniform(-4.0, 4.0, 500))

@@ -143,8 +143,8 @@ def test_and_not_to_what_is_commanded_later() -> None:
     assert (drive(machine(), columns)["S.setpoint_shift"] == 0.0).all()
 
 
-@pytest.mark.parametrize("event", ["reset", "program_end"])
-def test_reset_and_program_end_keep_the_position_too(event: str) -> None:
+@pytest.mark.parametrize("event", ["reset", "program_end", "S.released"])
+def test_reset_program_end_and_release_keep_the_position_too(event: str) -> None:
     lists = Machine((Axis(1, "M"), Axis(2, "S", cross=Cross(1, (0.0,), (0.5,), N, manual_activation=True))))
     run = drive(lists, {"S.cross_enable": True, "S.no_move": True, event: flags("..1..")})
     assert run["S.corrected_setpoint"].tolist() == [0.5] * 5
@@ -152,29 +152,30 @@ def test_reset_and_program_end_keep_the_position_too(event: str) -> None:
 
 
 def test_it_is_over_with_the_command() -> None:
-    # the command came with NO_MOVE and has acted; the reference that is gained later comes softly, and moves the axis
+    # the command came with NO_MOVE and has acted; the reference is lost and gained later, softly, and moves the axis
     columns = {
         "S.cross_enable": flags(".1........."),
         "S.no_move": flags(".1........."),
-        "M.referenced": flags("111.1111111"),
+        "M.referenced": flags("111...11111"),
     }
     columns["S.cross_enable"][1:] = True
     run = drive(Machine((Axis(1, "M"), Axis(2, "S", cross=Cross(1, (0.0,), (0.5,), N)))), columns)
-    assert run["S.cross_correction"] == pytest.approx([0.0, 0.5, 0.5, 0.0, *(0.5 * soft(np.arange(1, 8), N))])
+    assert run["S.cross_correction"] == pytest.approx([0.0, *(0.5 * soft([8, 8, 7, 6, 5, 6, 7, 8, 8, 8], N))])
     assert run["S.setpoint_shift"].tolist() == [0.0] + [-0.5] * 10
-
-
-def test_the_release_of_the_axis_moves_it_whatever_no_move_says() -> None:
-    lists = Machine((Axis(1, "M"), Axis(2, "S", cross=Cross(1, (0.0,), (0.5,), N, manual_activation=True))))
-    run = drive(lists, {"S.cross_enable": True, "S.no_move": True, "S.referenced": flags("11.11")})
-    assert run["S.corrected_setpoint"].tolist() == [0.5, 0.5, 0.0, 0.0, 0.0]
-    assert run["S.setpoint_shift"].tolist() == [0.0] * 5
 
 
 def test_the_loss_of_a_reference_is_no_command() -> None:
     run = drive(machine(), {"M.referenced": flags("1.."), "S.no_move": True})
     assert run["S.setpoint_shift"].tolist() == [0.0, 0.0, 0.0]
-    assert run["S.cross_correction"].tolist() == [0.5, 0.0, 0.0]
+    assert run["S.cross_correction"] == pytest.approx(0.5 * soft([8, 7, 6], N), abs=1e-15)
+
+
+def test_a_command_while_the_reference_is_lost_finds_nothing_to_absorb() -> None:
+    # off with NO_MOVE while the weight runs down: there is no switch that could move the axis less
+    columns = {"M.referenced": flags("1........."), "S.cross_enable": flags("11........"), "S.no_move": True}
+    run = drive(Machine((Axis(1, "M"), Axis(2, "S", cross=Cross(1, (0.0,), (0.5,), N)))), columns)
+    assert run["S.cross_correction"] == pytest.approx(0.5 * soft([8, 7, 6, 5, 4, 3, 2, 1, 0, 0], N), abs=1e-15)
+    assert run["S.setpoint_shift"].tolist() == [0.0] * 10
 
 
 @settings(max_examples=60, deadline=None)

@@ -7,18 +7,21 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from strategies import machines
 
+from axcomp.kinds import KIND_NAMES
+from axcomp.kinds.backlash import Backlash
 from axcomp.kinds.cross import Cross
 from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
 from axcomp.kinds.friction import Friction
 from axcomp.kinds.leadscrew import Leadscrew
 from axcomp.kinds.plane import Plane
+from axcomp.kinds.temperature import Temperature
 from axcomp.model.machine import Axis, Machine, ModuloRange
 from axcomp.runtime.runtime import Runtime
 
 EVENTS = (
     "referenced",
     "no_move",
-    *(f"{kind}_enable" for kind in ("cross", "plane", "crosstalk", "leadscrew", "friction")),
+    *(f"{kind}_enable" for kind in KIND_NAMES),
 )
 
 
@@ -162,8 +165,8 @@ def test_no_step_is_larger_than_slopes_ramps_and_reversals_allow(
     machine = Machine((Axis(1, "X"), Axis(2, "Y"), z))
     columns = anything(machine, seed, 200)
     for name in list(columns):
-        if name.endswith(("referenced", "leadscrew_enable")):
-            columns[name] = np.ones(200, bool)  # losing a reference, and the leadscrew's switch, act at once
+        if name in ("Z.referenced", "Z.leadscrew_enable"):
+            columns[name] = np.ones(200, bool)  # the leadscrew's switch and the loss of its reference act at once
     for name in "XYZ":
         columns[f"{name}.setpoint"] = np.clip(columns[f"{name}.setpoint"], -70.0, 70.0)
     x, y, s = (np.abs(np.diff(columns[f"{name}.setpoint"])) for name in "XYZ")
@@ -190,25 +193,31 @@ def test_no_step_is_larger_than_slopes_ramps_and_reversals_allow(
 def test_whatever_is_off_does_not_correct(machine: Machine, seed: int) -> None:
     run = drive(machine, anything(machine, seed))
     for axis in machine.axes:
-        for kind in ("cross", "plane", "crosstalk", "leadscrew"):
+        for kind in KIND_NAMES:
             off = ~run[f"{axis.name}.{kind}_active"]
             assert not run[f"{axis.name}.{kind}_correction"][off].any()
-        assert not run[f"{axis.name}.current"][~run[f"{axis.name}.friction_active"]].any()
 
 
 @few
 @given(machines(), seeds)
 def test_no_correction_is_larger_than_the_largest_value_of_its_table(machine: Machine, seed: int) -> None:
-    run = drive(machine, anything(machine, seed))
+    columns = anything(machine, seed)
+    run = drive(machine, columns)
     for axis in machine.axes:
-        for kind, compensation in ((one.kind, one) for one in axis.compensations):
-            output = "current" if kind == "friction" else f"{kind}_correction"
-            bound = max(abs(value) for value in values_of(compensation))
+        for compensation in axis.compensations:
+            output = "current" if compensation.kind == "friction" else f"{compensation.kind}_correction"
+            setpoints = columns[f"{axis.name}.setpoint"]
+            bound = max(abs(value) for value in values_of(compensation, setpoints))
             assert np.abs(run[f"{axis.name}.{output}"]).max() <= bound * (1 + 1e-6) + 1e-12
 
 
-def values_of(compensation: object) -> list[float]:
+def values_of(compensation: object, setpoints: NDArray[np.float64]) -> list[float]:
     match compensation:
+        case Temperature():
+            growth = compensation.coefficient * (setpoints - compensation.position)
+            return (compensation.offset + growth).tolist()
+        case Backlash():
+            return [compensation.amount]
         case Leadscrew():
             return [*compensation.positive, *(compensation.negative or ())]
         case Plane():

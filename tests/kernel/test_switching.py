@@ -9,11 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
+from axcomp.kinds.backlash import Backlash
 from axcomp.kinds.cross import Cross
 from axcomp.kinds.crosstalk import CrosstalkCurve
 from axcomp.kinds.friction import Friction
 from axcomp.kinds.leadscrew import Leadscrew
 from axcomp.kinds.plane import Plane
+from axcomp.kinds.temperature import Temperature
 from axcomp.model.machine import Axis, Machine
 
 N = 6
@@ -25,14 +27,19 @@ def compensated(kind: str, *, manual: bool = False, cycles: int = N) -> Machine:
         "cross": Cross(1, (0.0,), (1.0,), cycles, manual),
         "plane": Plane(1, 1, 0.0, 0.0, 1.0, 1.0, ((1.0,),), cycles, manual),
         "crosstalk": CrosstalkCurve(1, (0.0,), (1.0,), cycles, manual),
+        "temperature": Temperature(offset=1.0, n_cycles=max(cycles, 1)),
         "leadscrew": Leadscrew((0.0,), (-1.0,), manual_activation=manual),
+        "backlash": Backlash(1.0, 2),
         "friction": Friction((0.0,), (1.0,)),
     }
     return Machine((Axis(1, "M"), replace(Axis(2, "S"), **{kind: corrections[kind]})))
 
 
 SOFT = ("cross", "plane", "crosstalk")
-"""The kinds with n_cycles; they wait for standstill."""
+"""The kinds that wait for standstill."""
+
+RAMPED = (*SOFT, "temperature")
+"""The kinds with n_cycles."""
 
 
 def weights(kind: str, columns: dict[str, ArrayLike], **options: object) -> NDArray[np.float64]:
@@ -50,7 +57,7 @@ def flags(text: str) -> NDArray[np.bool_]:
 
 
 class TestRamp:
-    @pytest.mark.parametrize("kind", SOFT)
+    @pytest.mark.parametrize("kind", RAMPED)
     @settings(max_examples=5, deadline=None)
     @given(cycles=st.integers(0, 20), enable=st.lists(st.booleans(), min_size=1, max_size=80))
     def test_any_sequence_of_commands_against_the_whole_walk(self, kind: str, cycles: int, enable: list[bool]) -> None:
@@ -58,7 +65,7 @@ class TestRamp:
         n = max(cycles, 1)
         assert w == pytest.approx(soft(walk(enable, n, n if enable[0] else 0), n), abs=1e-15)
 
-    @pytest.mark.parametrize("kind", SOFT)
+    @pytest.mark.parametrize("kind", RAMPED)
     def test_on_takes_n_cycles_and_the_first_one_counts(self, kind: str) -> None:
         w = weights(kind, {f"S.{kind}_enable": flags(".111111111")})
         assert w == pytest.approx([0, *np.sin(np.pi / 12 * np.arange(1, 7)) ** 2, 1, 1, 1], abs=1e-15)
@@ -71,9 +78,9 @@ class TestRamp:
         w = weights("cross", {"S.cross_enable": flags("...111...11")})
         assert w == pytest.approx(np.sin(np.pi / 12 * np.array([0, 0, 0, 1, 2, 3, 2, 1, 0, 1, 2])) ** 2, abs=1e-15)
 
-    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew", "friction"])
+    @pytest.mark.parametrize("kind", [*RAMPED, "leadscrew", "backlash", "friction"])
     def test_what_is_on_at_the_start_begins_at_full_weight(self, kind: str) -> None:
-        run = drive(compensated(kind), {"S.velocity": [0.0 if kind in SOFT else 5.0]})
+        run = drive(compensated(kind), {"S.velocity": [5.0 if kind in ("backlash", "friction") else 0.0]})
         assert run["S.current" if kind == "friction" else f"S.{kind}_correction"] == [1.0]
 
     def test_only_the_switching_is_filtered_never_the_moving_value(self) -> None:
@@ -111,96 +118,144 @@ class TestStandstill:
         w = weights(kind, {f"S.{kind}_enable": flags("1......."), "M.velocity": 9.0, "M.setpoint": np.arange(8.0)})
         assert w == pytest.approx(soft(walk(flags("1......."), N, N), N), abs=1e-15)
 
-    def test_leadscrew_and_friction_do_not_wait(self) -> None:
+    @pytest.mark.parametrize(("step", "granted"), [(1.1e-9, 7), (-2e-9, 7), (0.3e-9, 5), (-0.3e-9, 5), (0.1e-9, 4)])
+    def test_slow_motion_is_motion_once_it_has_summed_up(self, step: float, granted: int) -> None:
+        # commanded in cycle 4: 0.3e-9 a cycle has become a motion just then, 0.1e-9 has not
+        columns = {"S.cross_enable": flags("1111........"), "S.setpoint": step * np.minimum(np.arange(12), 6)}
+        on = "".join("1" if k < granted else "." for k in range(12))
+        assert weights("cross", columns) == pytest.approx(ramped("cross", on), abs=1e-8)
+
+    @pytest.mark.parametrize("kind", SOFT)
+    def test_residue_of_rounding_is_standstill(self, kind: str) -> None:
+        # v += a·T leaves 1e-15; setpoints jitter in their last place
+        columns = {f"S.{kind}_enable": flags("1......"), "S.velocity": 1e-15, "S.setpoint": 7.0 + 1e-15 * flags(".1.1.1.")}
+        w = drive(compensated(kind), columns)[f"S.{kind}_correction"]
+        assert w == pytest.approx(ramped(kind, "1......"), abs=1e-15)
+
+    def test_leadscrew_temperature_and_friction_do_not_wait(self) -> None:
         moving = {"S.velocity": 3.0, "S.setpoint": 0.003 * np.arange(4)}
+        w = weights("temperature", {"S.temperature_enable": flags("1..1"), **moving})
+        assert w == pytest.approx(ramped("temperature", "1..1"), abs=1e-15)
         assert weights("leadscrew", {"S.leadscrew_enable": flags("1..1"), **moving}).tolist() == [1, 0, 0, 1]
         run = drive(compensated("friction"), {"S.friction_enable": flags("1..1"), **moving})
         assert run["S.current"].tolist() == [1, 0, 0, 1]
 
 
-REFERENCES = {"cross": ["M"], "plane": ["M", "S"], "leadscrew": ["S"]}
+REFERENCES = {"cross": ["M"], "plane": ["M", "S"], "temperature": ["S"], "leadscrew": ["S"]}
+
+
+def cycles_of(kind: str) -> int:
+    return N if kind in RAMPED else 1
+
+
+def ramped(kind: str, on: str) -> NDArray[np.float64]:
+    """Weights of a compensation that is on at the start and then goes where ``on`` says, a step a cycle."""
+    n = cycles_of(kind)
+    return soft(walk(flags(on), n, n if flags(on)[0] else 0), n)
 
 
 class TestReference:
     @pytest.mark.parametrize(("kind", "axis"), [(kind, axis) for kind, axes in REFERENCES.items() for axis in axes])
     @pytest.mark.parametrize("velocity", [0.0, 3.0])
-    def test_losing_it_is_off_at_once_and_gaining_it_on_softly_even_in_motion(
-        self, kind: str, axis: str, velocity: float
+    @pytest.mark.parametrize("referenced", ["11..1111111", "111........", "1.........1", "..111.11111"])
+    def test_losing_and_gaining_it_run_along_the_ramp_even_in_motion(
+        self, kind: str, axis: str, velocity: float, referenced: str
     ) -> None:
-        w = weights(kind, {f"{axis}.referenced": flags("11..1111111"), "S.velocity": velocity})
-        n = N if kind in SOFT else 1
-        assert w == pytest.approx([1, 1, 0, 0, *soft(np.clip(np.arange(1, 8), 0, n), n)], abs=1e-15)
+        columns = {f"{axis}.referenced": flags(referenced), "S.velocity": velocity, "M.velocity": velocity}
+        assert weights(kind, columns) == pytest.approx(ramped(kind, referenced), abs=1e-15)
 
-    def test_gained_after_the_start_it_comes_softly(self) -> None:
-        w = weights("cross", {"M.referenced": flags("..1111111")})
-        assert w == pytest.approx([0, 0, *soft(np.clip(np.arange(1, 8), 0, N), N)], abs=1e-15)
+    @pytest.mark.parametrize("axis", ["M", "S"])
+    def test_crosstalk_without_adaptation_axes_friction_and_backlash_need_none(self, axis: str) -> None:
+        columns = {f"{axis}.referenced": False, "S.velocity": [0.0] * 3}
+        assert weights("crosstalk", columns).tolist() == [1, 1, 1]
+        moving = {**columns, "S.velocity": [5.0] * 3}
+        assert drive(compensated("friction"), moving)["S.current"].tolist() == [1, 1, 1]
+        assert weights("backlash", {**columns, "S.velocity": [5.0] * 3}).tolist() == [1, 1, 1]
 
-    def test_lost_amid_a_ramp_it_begins_again(self) -> None:
-        w = weights("cross", {"M.referenced": flags("1.111.11")})
-        assert w == pytest.approx([1, 0, *soft([1, 2, 3], N), 0, *soft([1, 2], N)], abs=1e-15)
+    def test_any_losses_against_the_whole_walk(self) -> None:
+        referenced = "1.111.11......111.1.1.1111111111"
+        assert weights("cross", {"M.referenced": flags(referenced)}) == pytest.approx(
+            ramped("cross", referenced), abs=1e-15
+        )
 
-    def test_switched_off_while_it_is_lost_it_stays_off(self) -> None:
-        columns = {"S.velocity": 1.0, "M.referenced": flags("11...11111"), "S.cross_enable": flags("1.........")}
-        assert weights("cross", columns).tolist() == [1, 1] + [0] * 8
+    def test_a_command_does_not_wait_for_standstill_while_it_is_lost(self) -> None:
+        # the command of cycle 1 comes in motion and waits; from cycle 2 the weight runs down, and stays down
+        columns = {"S.velocity": 1.0, "M.referenced": flags("11...1111111"), "S.cross_enable": flags("1...........")}
+        assert weights("cross", columns) == pytest.approx(ramped("cross", "11.........."), abs=1e-15)
 
-    def test_crosstalk_without_adaptation_axes_needs_none(self) -> None:
-        assert weights("crosstalk", {"M.referenced": flags("..."), "S.referenced": False}).tolist() == [1, 1, 1]
+    def test_switched_on_in_motion_while_it_is_lost_it_comes_with_the_reference(self) -> None:
+        columns = {"S.velocity": 1.0, "M.referenced": flags("...11111111"), "S.cross_enable": flags(".1111111111")}
+        assert weights("cross", columns) == pytest.approx(ramped("cross", "...11111111"), abs=1e-15)
+
+
+EVENTS = ["reset", "program_end", "S.released"]
 
 
 class TestManual:
     @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
     def test_it_is_off_until_the_command_comes(self, kind: str) -> None:
         w = weights(kind, {f"S.{kind}_enable": flags("..1111111")}, manual=True)
-        n = N if kind in SOFT else 1
-        assert w == pytest.approx([0, 0, *soft(np.clip(np.arange(1, 8), 0, n), n)], abs=1e-15)
+        assert w == pytest.approx(ramped(kind, "..1111111"), abs=1e-15)
 
     @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
-    @pytest.mark.parametrize("event", ["reset", "program_end"])
-    def test_reset_and_program_end_switch_it_off_until_the_next_edge(self, kind: str, event: str) -> None:
+    @pytest.mark.parametrize("event", EVENTS)
+    def test_reset_program_end_and_release_switch_it_off_until_the_next_edge(self, kind: str, event: str) -> None:
         enable = flags("1111111111111.1")
-        n = N if kind in SOFT else 1
         w = weights(kind, {f"S.{kind}_enable": enable, event: flags("..1............")}, manual=True)
-        on = flags("11............1")
-        assert w == pytest.approx(soft(walk(on, n, n), n), abs=1e-15)
+        assert w == pytest.approx(ramped(kind, "11............1"), abs=1e-15)
 
-    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
-    @pytest.mark.parametrize("event", ["reset", "program_end"])
+    @pytest.mark.parametrize("kind", [*RAMPED, "leadscrew"])
+    @pytest.mark.parametrize("event", EVENTS)
     def test_an_automatic_one_does_not_care(self, kind: str, event: str) -> None:
         assert (weights(kind, {f"S.{kind}_enable": True, event: flags(".1.1")}) == 1.0).all()
 
     @pytest.mark.parametrize("kind", SOFT)
-    def test_reset_in_motion_waits_for_standstill(self, kind: str) -> None:
-        columns = {f"S.{kind}_enable": True, "reset": flags(".1........"), "S.velocity": 1.0 * flags("1111......")}
+    @pytest.mark.parametrize("event", EVENTS)
+    def test_they_wait_for_standstill(self, kind: str, event: str) -> None:
+        columns = {f"S.{kind}_enable": True, event: flags(".1........"), "S.velocity": 1.0 * flags("1111......")}
         w = weights(kind, columns, manual=True)
-        assert w == pytest.approx(soft(walk(flags("1111......"), N, N), N), abs=1e-15)
+        assert w == pytest.approx(ramped(kind, "1111......"), abs=1e-15)
 
     @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
-    def test_release_of_the_axis_is_off_at_once_even_in_motion_and_for_good(self, kind: str) -> None:
-        columns = {f"S.{kind}_enable": True, "S.referenced": flags("11.11111"), "S.velocity": 1.0 * flags("11111...")}
-        assert weights(kind, columns, manual=True).tolist() == [1, 1, 0, 0, 0, 0, 0, 0]
-
-    @pytest.mark.parametrize("kind", ["cross", "plane"])
-    def test_loss_of_the_masters_reference_too(self, kind: str) -> None:
-        columns = {f"S.{kind}_enable": True, "M.referenced": flags("11.11111"), "S.velocity": 1.0 * flags("11111...")}
-        assert weights(kind, columns, manual=True).tolist() == [1, 1, 0, 0, 0, 0, 0, 0]
+    def test_only_the_edge_of_a_release_counts(self, kind: str) -> None:
+        # given back in cycle 1 and for long; the command of cycle 4 takes the axis again, and nothing refuses it
+        columns = {f"S.{kind}_enable": flags("111.11111111"), "S.released": flags(".11111111...")}
+        w = weights(kind, columns, manual=True)
+        assert w == pytest.approx(ramped(kind, "1...11111111"), abs=1e-15)
 
     @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
-    @pytest.mark.parametrize("obstacle", ["reset", "program_end", "S.referenced"])
+    def test_the_release_of_another_axis_does_not_matter(self, kind: str) -> None:
+        columns = {f"S.{kind}_enable": True, "M.released": flags(".11.1")}
+        assert (weights(kind, columns, manual=True) == 1.0).all()
+
+    @pytest.mark.parametrize("kind", ["cross", "crosstalk"])
+    def test_the_reference_of_its_own_axis_does_not_matter(self, kind: str) -> None:
+        columns = {f"S.{kind}_enable": flags("..11111111"), "S.referenced": flags("1...1.....")}
+        assert weights(kind, columns, manual=True) == pytest.approx(ramped(kind, "..11111111"), abs=1e-15)
+
+    @pytest.mark.parametrize(("kind", "axis"), [("cross", "M"), ("plane", "M"), ("plane", "S"), ("leadscrew", "S")])
+    def test_after_the_loss_of_a_reference_that_it_needs_it_comes_back(self, kind: str, axis: str) -> None:
+        referenced = "11..1111111"
+        columns = {f"S.{kind}_enable": True, f"{axis}.referenced": flags(referenced), "S.velocity": 1.0}
+        assert weights(kind, columns, manual=True) == pytest.approx(ramped(kind, referenced), abs=1e-15)
+
+    @pytest.mark.parametrize("kind", [*SOFT, "leadscrew"])
+    @pytest.mark.parametrize("obstacle", ["reset", "program_end"])
     def test_a_command_that_comes_too_early_is_refused(self, kind: str, obstacle: str) -> None:
-        obstructed = flags("11111....")
-        columns = {f"S.{kind}_enable": flags("..1111.11"), obstacle: obstructed if "." not in obstacle else ~obstructed}
+        columns = {f"S.{kind}_enable": flags("..1111.11"), obstacle: flags("11111....")}
         w = weights(kind, columns, manual=True)
-        n = N if kind in SOFT else 1
-        assert w == pytest.approx([0] * 7 + soft(np.clip([1, 2], 0, n), n).tolist(), abs=1e-15)
+        assert w == pytest.approx(ramped(kind, ".......11"), abs=1e-15)
 
     def test_enabled_from_the_start_it_is_on_from_the_start(self) -> None:
         assert weights("cross", {"S.cross_enable": flags("111")}, manual=True).tolist() == [1, 1, 1]
-        assert weights("cross", {"S.cross_enable": flags("11"), "reset": flags("1.")}, manual=True).tolist() == [0, 0]
 
-    @pytest.mark.parametrize("event", ["reset", "program_end", "S.referenced"])
+    @pytest.mark.parametrize("event", EVENTS)
+    def test_unless_it_is_taken_off_at_once(self, event: str) -> None:
+        assert weights("cross", {"S.cross_enable": flags("11"), event: flags("1.")}, manual=True).tolist() == [0, 0]
+
+    @pytest.mark.parametrize("event", EVENTS)
     def test_what_happens_while_the_axis_is_held_is_not_missed(self, event: str) -> None:
-        happens = flags("..1......")
-        columns = {"S.cross_enable": True, event: happens if "." not in event else ~happens}
+        columns = {"S.cross_enable": True, event: flags("..1......")}
         setpoint = np.where(flags(".111....."), np.nan, 0.0)
         run = drive(compensated("cross", manual=True), {**columns, "S.setpoint": setpoint})
         assert run["S.cross_correction"] == pytest.approx([1, 1, 1, 1, *soft([5, 4, 3, 2, 1], N)])
