@@ -8,12 +8,10 @@ from __future__ import annotations
 
 from .record import Vec, zeros
 from .records import Inputs, Outputs, State, Tables
-from .volumetric_errors import errors_at
 from .volumetric_model import correction_at
 from .volumetric_records import (
     ERROR_LIMIT_EXCEEDED,
     ERROR_SINGULAR,
-    ERRORS,
     LETTERS,
     LINEAR,
     VolumetricState,
@@ -49,10 +47,8 @@ def compute_values(pool: Vec, table: VolumetricTable, volumetric: VolumetricStat
     position = zeros(LETTERS)
     for letter in range(LETTERS):
         position[letter] = state.motion.axis[table.axis[letter]].setpoint + table.offset[letter]
-    errors = zeros(ERRORS)
-    errors_at(pool, table, position, errors)
     correction = zeros(LINEAR)
-    if not correction_at(table, position, state.tool_length, errors, correction):
+    if not correction_at(pool, table, position, state.tool_length, correction):
         volumetric.command = False
         stop_without_motion(volumetric)
         set_error(table, state, ERROR_SINGULAR)

@@ -76,6 +76,9 @@ class VolumetricTable:
     chain: Annotated[list[int], LETTERS]  # letters from the workpiece to the tool
     workpiece_axes: int
     exact: Annotated[list[bool], LETTERS]  # the axis has no errors
+    steepness: float  # bound of how much the lengths among the errors change with X, Y and Z, mm per mm
+    angular_steepness: float  # the same of the angles, rad per mm
+    reach: float  # lever of an angle besides X, Y, Z and the tool length, mm
     column: Annotated[list[int], LINEAR]  # how many linear axes are between X, Y or Z and the tool
     alternative: bool
     tool_position: Annotated[list[float], LINEAR]

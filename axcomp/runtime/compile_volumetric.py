@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from ..kernel.record import Vec
 from ..kernel.records import Tables
@@ -27,6 +28,7 @@ from ..model.volumetric import (
     ErrorTable,
     Interpolation,
     Volumetric,
+    is_angle,
     is_grid,
     largest,
 )
@@ -69,6 +71,18 @@ def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
         before += [max(i - 1.0, 0.0)] * (step + 1 - len(before))
     before += [len(knots) - 1.0] * (len(knots) + 1 - len(before))
     return before
+
+
+def _steepest(error: ErrorTable, d: int) -> float:
+    """Return the largest change of an error per mm along argument d; what is no grid can change as it likes."""
+    if error.interpolation is not Interpolation.GRID:
+        return 1.0
+    # Nodes that differ in this argument only are neighbours when it is sorted last.
+    rows = sorted(
+        (*node[:d], *node[d + 1 :], node[d], value) for node, value in zip(error.nodes, error.values, strict=True)
+    )
+    pairs = ((a, b) for a, b in pairwise(rows) if a[:-2] == b[:-2])
+    return max((abs((b[-1] - a[-1]) / (b[-2] - a[-2])) for a, b in pairs), default=0.0)
 
 
 class _Compiler:
@@ -158,6 +172,7 @@ class _Compiler:
         table.constant = self._append([float(number) for number, _ in constants])
         self._append([value for _, value in constants])
         table.blocks = len(blocks)
+        self._steepness()
         for block, errors in zip(table.block, blocks.values(), strict=False):
             self._block(block, errors)
 
@@ -212,6 +227,19 @@ class _Compiler:
         else:
             block.knots[0] = self._append([x for node in nodes for x in node])
         block.values = self._append([error.values[n] for n in order for error in errors])
+
+    def _steepness(self) -> None:
+        """Bound how fast the errors change with X, Y and Z: it says when they need no further evaluation."""
+        table = self.table
+        for error in self.volumetric.errors:
+            if error.name[-1] not in self.volumetric.chain or not any(error.values):
+                continue
+            steepest = sum(_steepest(error, d) for d, letter in enumerate(error.arguments) if letter in LINEAR)
+            if is_angle(error.name):
+                table.angular_steepness += steepest
+            else:
+                table.steepness += steepest
+        table.reach = sum(map(abs, (*table.tool_position, *table.center)))
 
     def _fold(self, block: ErrorBlock, d: int, letter: str, first: float, last: float) -> None:
         """Say into which turn the position of a rotary axis is folded: where the table begins, or centred on it."""

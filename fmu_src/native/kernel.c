@@ -1403,13 +1403,15 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
  * With R(a, b, c) = Rz(c)·Ry(b)·Rx(a), e the direction of an axis, P its centre, q its position and t = (X0 + EX, …):
  *
  * linear                A = Trans(R(A0, B0, C0)·e·q) · Trans(t) · R(EA, EB, EC)
- * rotary, default       A = Trans(P) · Trans(t) · R(A0 + EA, …) · Rot(e, q) · Trans(−P)
- * rotary, alternative   A = Trans(P) · Trans(EX, …) · R(EA, …) · L·Rot(e, q)·L⁻¹ · Trans(−P), L = Trans(X0, …)·R(A0, …)
+ * rotary, default       A = Trans(t) · R(A0 + EA, …) · Trans(P) · Rot(e, q) · Trans(−P)
+ * rotary, alternative   A = Trans(EX, …) · R(EA, …) · L · Trans(P) · Rot(e, q) · Trans(−P) · L⁻¹,
+ *                       L = Trans(X0, …)·R(A0, …)
  *
  * W(q) = A₁⁻¹ … A_k⁻¹ · A_{k+1} … A_n · (P0 + tool length · N0), k = workpiece axes. Every A is x ↦ M·x + o, M a rotation.
  *
- * All errors are those at q, so W is linear in the corrections of X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four
- * columns carries W and J from the tool to the workpiece. Matrices are row by row.
+ * The errors are those where the machine stands, at q + Δ. With errors that are given, W is linear in the corrections of
+ * X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four columns carries W and J from the tool to the workpiece. Matrices are
+ * row by row.
  */
 
 /* Map the first columns of a frame by x ↦ M·x + o; if `side` is negative by x ↦ M·(x − o). */
@@ -1503,20 +1505,6 @@ static void linear_axis(int32_t letter, double q, const double errors[ERRORS], d
     rotation(errors[e + EA], errors[e + EB], errors[e + EC], m);
 }
 
-/* Let a map about the origin act about the centre of A, B or C. */
-static void about_center(const VolumetricTable *table, int32_t letter, const double m[9], double o[3])
-{
-    double center[3] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        center[d] = table->center[3 * (letter - LINEAR) + d];
-        o[d] += center[d];
-    }
-    turn(m, center);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        o[d] -= center[d];
-    }
-}
-
 /* Put the rotation by `q` in ° about the unit vector `e` into `m`. */
 static void rotation_about(const double e[3], double q, double m[9])
 {
@@ -1537,16 +1525,29 @@ static void rotation_about(const double e[3], double q, double m[9])
     m[7] += s * e[0];
 }
 
+/* Put the turn by `q` in ° about an axis through a point into `m` and `o`; the point is lost. */
+static void turn_about(const double axis[3], double center[3], double q, double m[9], double o[3])
+{
+    rotation_about(axis, q, m);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] = center[d];
+    }
+    turn(m, center);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] -= center[d];
+    }
+}
+
 /* Put the map of A, B or C without errors into `m` and `o`; `q` in °. */
 static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3])
 {
     double axis[3] = {0};
+    double center[3] = {0};
     for (int32_t d = 0; d < LINEAR; d++) {
         axis[d] = table->direction[3 * letter + d];
-        o[d] = 0.0;
+        center[d] = table->center[3 * (letter - LINEAR) + d];
     }
-    rotation_about(axis, q, m);
-    about_center(table, letter, m, o);
+    turn_about(axis, center, q, m, o);
 }
 
 /* Replace `m` by a·m. */
@@ -1568,37 +1569,34 @@ static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, 
 {
     int32_t e = ERRORS_OF_AXIS * letter;
     double axis[3] = {0};
+    double center[3] = {0};
+    double tilt[9] = {0};
     for (int32_t d = 0; d < LINEAR; d++) {
         axis[d] = table->direction[3 * letter + d];
+        center[d] = table->center[3 * (letter - LINEAR) + d];
     }
-    double tilt[9] = {0};
     if (table->alternative) {
-        /* L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …). */
+        /* L · Trans(P) · Rot(e, q) · Trans(−P) · L⁻¹ turns about R(A0, …)·e through L·P. */
         rotation(errors[e + A0], errors[e + B0], errors[e + C0], tilt);
         turn(tilt, axis);
-        rotation_about(axis, q, m);
+        turn(tilt, center);
         for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = -errors[e + X0 + d];
-        }
-        turn(m, o);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + X0 + d];
+            center[d] += errors[e + X0 + d];
         }
         rotation(errors[e + EA], errors[e + EB], errors[e + EC], tilt);
-        turn(tilt, o);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + EX + d];
-        }
     } else {
-        rotation_about(axis, q, m);
         rotation(errors[e + A0] + errors[e + EA], errors[e + B0] + errors[e + EB], errors[e + C0] + errors[e + EC],
                 tilt);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = errors[e + X0 + d] + errors[e + EX + d];
+    }
+    turn_about(axis, center, q, m, o);
+    multiply_from_left(tilt, m);
+    turn(tilt, o);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] += errors[e + EX + d];
+        if (!table->alternative) {
+            o[d] += errors[e + X0 + d];
         }
     }
-    multiply_from_left(tilt, m);
-    about_center(table, letter, m, o);
 }
 
 /* Replace a rotation by its inverse. */
@@ -1695,12 +1693,12 @@ static void invert(const double frame[FRAME], double inverse[9])
     }
 }
 
-/* Put Δ with W(q + Δ) = nominal W(q) into `correction`; false: X, Y and Z are dependent here.
+/* Put Δ into `correction` for errors that are given; false: X, Y and Z are dependent here.
  *
  * Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
  * position is singular.
  */
-static bool correction_at(const VolumetricTable *table, const double position[LETTERS], double tool_length,
+static bool correction_with(const VolumetricTable *table, const double position[LETTERS], double tool_length,
         const double errors[ERRORS], double correction[LINEAR])
 {
     double nominal[FRAME] = {0};
@@ -1732,6 +1730,49 @@ static bool correction_at(const VolumetricTable *table, const double position[LE
         }
     }
     return false;
+}
+
+/* Put Δ at a position into `correction`, with the errors at another place. */
+static bool correction_at_place(const double *pool, const VolumetricTable *table, const double position[LETTERS],
+        const double place[LETTERS], double tool_length, double correction[LINEAR])
+{
+    double errors[ERRORS] = {0};
+    errors_at(pool, table, place, errors);
+    return correction_with(table, position, tool_length, errors, correction);
+}
+
+/* Put Δ with W(q + Δ) = nominal W(q) into `correction`, which is 0 before; false: X, Y and Z are dependent here.
+ *
+ * The errors are evaluated at q, and where these take the axes again until nothing changes any more. How much they can
+ * change is known from the steepness of the tables: most machines need two evaluations.
+ */
+static bool correction_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
+        double tool_length, double correction[LINEAR])
+{
+    double place[LETTERS] = {0};
+    double arm = fabs(tool_length) + table->reach;
+    for (int32_t letter = 0; letter < LETTERS; letter++) {
+        place[letter] = position[letter];
+        if (letter < LINEAR) {
+            arm += fabs(position[letter]);
+        }
+    }
+    double found[LINEAR] = {0};
+    for (int32_t i = 0; i < EVALUATIONS; i++) {
+        if (!correction_at_place(pool, table, position, place, tool_length, found)) {
+            return false;
+        }
+        double change = 0.0;
+        for (int32_t d = 0; d < LINEAR; d++) {
+            change += fabs(found[d] - correction[d]);
+            correction[d] = found[d];
+            place[d] = position[d] + found[d];
+        }
+        if (change * (table->steepness + table->angular_steepness * arm) < SETTLED) {
+            return true;
+        }
+    }
+    return true;
 }
 
 /* =========================== volumetric_switching ===========================
@@ -1996,10 +2037,8 @@ static void compute_values(const double *pool, const VolumetricTable *table, Vol
     for (int32_t letter = 0; letter < LETTERS; letter++) {
         position[letter] = state->motion.axis[table->axis[letter]].setpoint + table->offset[letter];
     }
-    double errors[ERRORS] = {0};
-    errors_at(pool, table, position, errors);
     double correction[LINEAR] = {0};
-    if (!correction_at(table, position, state->tool_length, errors, correction)) {
+    if (!correction_at(pool, table, position, state->tool_length, correction)) {
         volumetric->command = false;
         stop_without_motion(volumetric);
         set_error(table, state, ERROR_SINGULAR);

@@ -375,6 +375,9 @@ typedef struct {
     int32_t chain[LETTERS];  /* letters from the workpiece to the tool */
     int32_t workpiece_axes;
     bool exact[LETTERS];  /* the axis has no errors */
+    double steepness;  /* bound of how much the lengths among the errors change with X, Y and Z, mm per mm */
+    double angular_steepness;  /* the same of the angles, rad per mm */
+    double reach;  /* lever of an angle besides X, Y, Z and the tool length, mm */
     int32_t column[LINEAR];  /* how many linear axes are between X, Y or Z and the tool */
     bool alternative;
     double tool_position[LINEAR];
@@ -525,6 +528,8 @@ typedef struct {
 
 #define DEGREE 0.017453292519943295  /* HALF_PI / 90.0 */
 #define FRAME 12  /* W, then the columns of J: those of X, Y and Z in their order from the tool */
+#define EVALUATIONS 3  /* of the errors in a cycle */
+#define SETTLED 1e-6  /* mm; what another evaluation would change less is left */
 #define RESIDUAL 1e-9  /* mm */
 #define ITERATIONS 5
 #define SINGULAR 1e-6  /* volume spanned by the columns of J, which are unit vectors */

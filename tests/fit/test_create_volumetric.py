@@ -20,7 +20,7 @@ from axcomp.fit.volumetric_model import TcpDeviations
 from axcomp.fit.volumetric_target import VolumetricTarget
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at
-from axcomp.kernel.volumetric_model import correction_at
+from axcomp.kernel.volumetric_model import correction_with
 from axcomp.lists import read_machine
 from axcomp.measurement.columns import MeasurementError
 from axcomp.model.companions import models
@@ -72,7 +72,7 @@ def corrected_by(found, measurement):
     for place, position, tool in zip(corrected, measurement.positions.tolist(), measurement.tool_lengths, strict=True):
         errors, correction = zeros(72), zeros(3)
         errors_at(pool, table, position, errors)
-        assert correction_at(table, position, float(tool), errors, correction)
+        assert correction_with(table, position, float(tool), errors, correction)
         place[:3] += correction
     return corrected
 

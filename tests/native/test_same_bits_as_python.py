@@ -73,7 +73,9 @@ def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[f
 
     Returns all the corrections.
     """
-    tables, state, outputs = compile_tables(machine), zero(State), zero(Outputs)
+    tables, pool = compile_tables(machine)
+    state, outputs = zero(State), zero(Outputs)
+    numbers = (ctypes.c_double * max(1, len(pool)))(*pool)
     inputs = initial_inputs(tables)
     for record in (state, outputs):
         del record.axis[tables.axis_count :], record.volumetric[tables.volumetrics :]
@@ -94,8 +96,8 @@ def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[f
             command.no_move = source.random() < 0.2
             command.factor_x, command.factor_y, command.factor_z = source.choices([0.0, 0.5, 1.0], k=3)
         to_c(inputs, structs[2])
-        cycle(tables, state, inputs, outputs)
-        native_cycle(*map(ctypes.byref, structs))
+        cycle(tables, pool, state, inputs, outputs)
+        native_cycle(ctypes.byref(structs[0]), numbers, *map(ctypes.byref, structs[1:]))
         from_c(structs[3], found)
         assert bits(found) == bits(outputs)
         corrections += [axis.correction for axis in outputs.axis]

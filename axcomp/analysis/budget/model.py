@@ -7,7 +7,7 @@ import numpy as np
 from ...engine.motion import Array
 from ...engine.tcp_model import TcpModel
 from ...kernel.record import zeros
-from ...kernel.volumetric_model import correction_at
+from ...kernel.volumetric_model import correction_with
 from ...model.volumetric import LINEAR
 
 
@@ -23,6 +23,6 @@ class CorrectionModel(TcpModel):
         rows = zip(found, places.tolist(), tool_lengths.tolist(), errors.tolist(), strict=True)
         for row, place, tool_length, wrong in rows:
             correction = zeros(len(LINEAR))
-            if correction_at(self._table, place, tool_length, wrong, correction):
+            if correction_with(self._table, place, tool_length, wrong, correction):
                 row[:] = correction
         return found

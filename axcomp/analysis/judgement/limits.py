@@ -12,11 +12,10 @@ from itertools import product
 from typing import Any
 
 from ...kernel.record import zeros
-from ...kernel.volumetric_errors import errors_at
 from ...kernel.volumetric_model import correction_at
 from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
-from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
+from ...model.volumetric import LETTERS, LINEAR, Volumetric
 from ...runtime.compile import compile_tables
 from .positions import Positions
 
@@ -97,9 +96,8 @@ def _corrections(
     tables, pool = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
     table = tables.volumetric[0]
     for position in product(*_sides(machine, volumetric)):
-        errors, correction = zeros(len(ERRORS)), zeros(len(LINEAR))
-        errors_at(pool, table, list(position), errors)
-        if correction_at(table, list(position), tool_length, errors, correction):
+        correction = zeros(len(LINEAR))
+        if correction_at(pool, table, list(position), tool_length, correction):
             yield position, correction
 
 
