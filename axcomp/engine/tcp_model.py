@@ -60,7 +60,7 @@ class TcpModel:
         found = np.empty((len(places), len(ERRORS)))
         for row, place in zip(found, places.tolist(), strict=True):
             errors = zeros(len(ERRORS))
-            errors_at(self._pool, self._table, place, errors)
+            errors_at(self._pool, self._table, place, [0] * len(ERRORS), errors)
             row[:] = errors
         return found
 

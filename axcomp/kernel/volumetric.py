@@ -48,7 +48,7 @@ def compute_values(pool: Vec, table: VolumetricTable, volumetric: VolumetricStat
     for letter in range(LETTERS):
         position[letter] = state.motion.axis[table.axis[letter]].setpoint + table.offset[letter]
     correction = zeros(LINEAR)
-    if not correction_at(pool, table, position, state.tool_length, correction):
+    if not correction_at(pool, table, position, state.tool_length, volumetric.section, correction):
         volumetric.command = False
         stop_without_motion(volumetric)
         set_error(table, state, ERROR_SINGULAR)

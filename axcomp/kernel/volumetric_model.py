@@ -38,12 +38,14 @@ def correction_at(
     table: VolumetricTable,
     position: Annotated[list[float], LETTERS],
     tool_length: float,
+    section: Annotated[list[int], ERRORS],
     correction: Annotated[list[float], LINEAR],
 ) -> bool:
     """Put Δ with W(q + Δ) = nominal W(q) into ``correction``, which is 0 before; False: X, Y and Z are dependent here.
 
     The errors are evaluated at q, and where these take the axes again until nothing changes any more. How much they can
     change is known from the steepness of the tables: most machines need two evaluations.
+    ``section``: see ``errors_at``.
     """
     place = zeros(LETTERS)
     arm = abs(tool_length) + table.reach
@@ -53,7 +55,7 @@ def correction_at(
             arm += abs(position[letter])
     found = zeros(LINEAR)
     for _ in range(EVALUATIONS):
-        if not correction_at_place(pool, table, position, place, tool_length, found):
+        if not correction_at_place(pool, table, position, place, tool_length, section, found):
             return False
         change = 0.0
         for d in range(LINEAR):
@@ -71,11 +73,12 @@ def correction_at_place(
     position: Annotated[list[float], LETTERS],
     place: Annotated[list[float], LETTERS],
     tool_length: float,
+    section: Annotated[list[int], ERRORS],
     correction: Annotated[list[float], LINEAR],
 ) -> bool:
     """Put Δ at a position into ``correction``, with the errors at another place."""
     errors = zeros(ERRORS)
-    errors_at(pool, table, place, errors)
+    errors_at(pool, table, place, section, errors)
     return correction_with(table, position, tool_length, errors, correction)
 
 

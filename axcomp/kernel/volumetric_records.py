@@ -108,6 +108,7 @@ class VolumetricState:
     taking_part: Annotated[list[bool], LINEAR]  # False: dropped, its correction has become a shift
     absorbed: Annotated[list[bool], LINEAR]  # what its correction changes in this cycle goes into the shift
     value: Annotated[list[float], LINEAR]  # correction at full weight
+    section: Annotated[list[int], ERRORS]  # of its path that a block follows, counted from 1; 0: not known yet
     contribution: Annotated[list[float], LINEAR]  # weight · value
     shift: Annotated[list[float], LINEAR]  # what was absorbed: it stays until the next switch
     held_shift: Annotated[list[float], LINEAR]  # the shift when its release began

@@ -20,6 +20,7 @@ from ..model.machine import Machine
 from ..model.volumetric import (
     COMPENSATIONS_MAX,
     ERRORS,
+    FULL_TURN,
     LENGTH_MAX,
     LETTERS,
     LINEAR,
@@ -31,9 +32,10 @@ from ..model.volumetric import (
     is_angle,
     is_grid,
     largest,
+    turn_of,
 )
 
-FULL_TURN = 360.0
+CYCLES_MAX = 2**31 - 1  # of a switch; at 1 ms more than three weeks
 SHORTEST = 1e-9  # mm or °; along less than this, searching is left to the bisection
 
 _INTERPOLATIONS = {
@@ -100,7 +102,7 @@ class _Compiler:
         table.configured = True
         table.manual = volumetric.manual_activation
         table.associated = volumetric.associate_to_channel
-        table.cycles = max(1, volumetric.filter_steps)
+        table.cycles = min(max(1, volumetric.filter_steps), CYCLES_MAX)
         self._axes()
         self._model(table)
         for d, letter in enumerate(LINEAR):
@@ -242,14 +244,16 @@ class _Compiler:
         table.reach = sum(map(abs, (*table.tool_position, *table.center)))
 
     def _fold(self, block: ErrorBlock, d: int, letter: str, first: float, last: float) -> None:
-        """Say into which turn the position of a rotary axis is folded: where the table begins, or centred on it."""
+        """Say into which turn the position of a rotary axis is folded; among scattered records all ways go round."""
         if letter not in ROTARY:
             return
         modulo = self.machine.axes[self.table.axis[LETTERS.index(letter)]].modulo
-        if last - first >= FULL_TURN:
-            block.start[d], block.period[d] = first, FULL_TURN
-        elif modulo is not None:
-            block.start[d], block.period[d] = 0.5 * (first + last - modulo.length), modulo.length
+        length = None if modulo is None else modulo.length
+        turn = turn_of(first, last, length)
+        if block.interpolation == INTERPOLATE_SCATTER and turn is None:
+            turn = (first, FULL_TURN)
+        if turn is not None:
+            block.start[d], block.period[d] = turn
 
     def _append(self, values: Sequence[float]) -> int:
         return append(self.pool, values, self._name())

@@ -18,6 +18,7 @@ static inline double double_min(double a, double b) { return b < a ? b : a; }
 static inline double double_max(double a, double b) { return b > a ? b : a; }
 static inline int32_t int_min(int32_t a, int32_t b) { return b < a ? b : a; }
 static inline int32_t int_max(int32_t a, int32_t b) { return b > a ? b : a; }
+static inline int32_t int_abs(int32_t a) { return a < 0 ? -a : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
@@ -1218,7 +1219,8 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
  * The errors of a machine at a position: interpolation over any number of axes (manual 003, 6.4).
  *
  * On a grid: multilinear, the edge held outside. Scattered: Shepard's weights 1/distance², exact at the nodes. On a path:
- * at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held.
+ * at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held; where the path
+ * crosses itself the section that is followed counts.
  */
 
 /* Return i with knot[i] ≤ x < knot[i + 1] along argument d; the last knot belongs to the last cell.
@@ -1331,46 +1333,82 @@ static void add_from_scatter(const double *pool, const ErrorBlock *block, const 
     }
 }
 
-/* Add the values at the point of the polyline that is nearest; of two as near the first one. */
-static void add_from_path(const double *pool, const ErrorBlock *block, const double x[LETTERS], double errors[ERRORS])
+/* Return where the point of a section that is nearest lies along it, 0 … 1. */
+static double share_along(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS])
 {
-    int32_t nearest = 0;
+    int32_t start = block->knots[0] + n * block->arguments;
+    double along = 0.0;
+    double square = 0.0;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        double direction = pool[start + block->arguments + d] - pool[start + d];
+        along += (x[d] - pool[start + d]) * direction;
+        square += direction * direction;
+    }
+    if (square > 0.0) {
+        return double_min(double_max(along / square, 0.0), 1.0);
+    }
+    return 0.0;
+}
+
+/* Return the squared distance from the point at share s of a section. */
+static double square_from_section(const double *pool, const ErrorBlock *block, int32_t n, double s,
+        const double x[LETTERS])
+{
+    int32_t start = block->knots[0] + n * block->arguments;
+    double distance = 0.0;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        double foot = pool[start + d] + s * (pool[start + block->arguments + d] - pool[start + d]);
+        distance += (x[d] - foot) * (x[d] - foot);
+    }
+    return distance;
+}
+
+/* Add the values at the nearest point of the polyline, and return its section, counted from 1.
+ *
+ * Of sections as near the first one counts; one that is followed, and its neighbours, until another is much nearer.
+ */
+static int32_t add_from_path(const double *pool, const ErrorBlock *block, const double x[LETTERS], int32_t followed,
+        double errors[ERRORS])
+{
+    int32_t section = 0;
     double share = 0.0;
     double shortest = -1.0;
+    int32_t own = 0;
+    double own_share = 0.0;
+    double own_shortest = -1.0;
     for (int32_t n = 0; n < block->nodes - 1; n++) {
-        int32_t start = block->knots[0] + n * block->arguments;
-        double along = 0.0;
-        double square = 0.0;
-        for (int32_t d = 0; d < block->arguments; d++) {
-            double direction = pool[start + block->arguments + d] - pool[start + d];
-            along += (x[d] - pool[start + d]) * direction;
-            square += direction * direction;
-        }
-        double s = 0.0;
-        if (square > 0.0) {
-            s = double_min(double_max(along / square, 0.0), 1.0);
-        }
-        double distance = 0.0;
-        for (int32_t d = 0; d < block->arguments; d++) {
-            double foot = pool[start + d] + s * (pool[start + block->arguments + d] - pool[start + d]);
-            distance += (x[d] - foot) * (x[d] - foot);
-        }
+        double s = share_along(pool, block, n, x);
+        double distance = square_from_section(pool, block, n, s, x);
         if (shortest < 0.0 || distance < shortest) {
             shortest = distance;
-            nearest = n;
+            section = n;
             share = s;
         }
+        if (followed > 0 && int_abs(n + 1 - followed) <= 1 && (own_shortest < 0.0 || distance < own_shortest)) {
+            own_shortest = distance;
+            own = n;
+            own_share = s;
+        }
     }
-    int32_t at = block->values + nearest * block->errors;
+    bool at_end = (own == 0 && own_share == 0.0) || (own == block->nodes - 2 && own_share == 1.0);
+    if (own_shortest >= 0.0 && !at_end && (own_shortest < BESIDE || own_shortest < 4.0 * shortest)) {
+        section = own;
+        share = own_share;
+    }
+    int32_t at = block->values + section * block->errors;
     add_node(pool, block, at, 1.0 - share, errors);
     if (share > 0.0) {
         add_node(pool, block, at + block->errors, share, errors);
     }
+    return section + 1;
 }
 
-/* Put the errors at a position (mm, °) into `errors`, which is 0 before. */
+/* Put the errors at a position (mm, °) into `errors`, which is 0 before.
+ *
+ * `section`: for each block the section of its path that is followed, counted from 1; 0: not known yet.
+ */
 static void errors_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
-        double errors[ERRORS])
+        int32_t section[ERRORS], double errors[ERRORS])
 {
     for (int32_t k = 0; k < table->constants; k++) {
         errors[(int32_t)pool[table->constant + k]] = pool[table->constant + table->constants + k];
@@ -1391,7 +1429,7 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
         } else if (block->interpolation == INTERPOLATE_SCATTER) {
             add_from_scatter(pool, block, x, errors);
         } else {
-            add_from_path(pool, block, x, errors);
+            section[b] = add_from_path(pool, block, x, section[b], errors);
         }
     }
 }
@@ -1734,20 +1772,20 @@ static bool correction_with(const VolumetricTable *table, const double position[
 
 /* Put Δ at a position into `correction`, with the errors at another place. */
 static bool correction_at_place(const double *pool, const VolumetricTable *table, const double position[LETTERS],
-        const double place[LETTERS], double tool_length, double correction[LINEAR])
+        const double place[LETTERS], double tool_length, int32_t section[ERRORS], double correction[LINEAR])
 {
     double errors[ERRORS] = {0};
-    errors_at(pool, table, place, errors);
+    errors_at(pool, table, place, section, errors);
     return correction_with(table, position, tool_length, errors, correction);
 }
 
 /* Put Δ with W(q + Δ) = nominal W(q) into `correction`, which is 0 before; false: X, Y and Z are dependent here.
  *
  * The errors are evaluated at q, and where these take the axes again until nothing changes any more. How much they can
- * change is known from the steepness of the tables: most machines need two evaluations.
+ * change is known from the steepness of the tables: most machines need two evaluations. `section`: see `errors_at`.
  */
 static bool correction_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
-        double tool_length, double correction[LINEAR])
+        double tool_length, int32_t section[ERRORS], double correction[LINEAR])
 {
     double place[LETTERS] = {0};
     double arm = fabs(tool_length) + table->reach;
@@ -1759,7 +1797,7 @@ static bool correction_at(const double *pool, const VolumetricTable *table, cons
     }
     double found[LINEAR] = {0};
     for (int32_t i = 0; i < EVALUATIONS; i++) {
-        if (!correction_at_place(pool, table, position, place, tool_length, found)) {
+        if (!correction_at_place(pool, table, position, place, tool_length, section, found)) {
             return false;
         }
         double change = 0.0;
@@ -2038,7 +2076,7 @@ static void compute_values(const double *pool, const VolumetricTable *table, Vol
         position[letter] = state->motion.axis[table->axis[letter]].setpoint + table->offset[letter];
     }
     double correction[LINEAR] = {0};
-    if (!correction_at(pool, table, position, state->tool_length, correction)) {
+    if (!correction_at(pool, table, position, state->tool_length, volumetric->section, correction)) {
         volumetric->command = false;
         stop_without_motion(volumetric);
         set_error(table, state, ERROR_SINGULAR);

@@ -405,6 +405,7 @@ typedef struct {
     bool taking_part[LINEAR];  /* false: dropped, its correction has become a shift */
     bool absorbed[LINEAR];  /* what its correction changes in this cycle goes into the shift */
     double value[LINEAR];  /* correction at full weight */
+    int32_t section[ERRORS];  /* of its path that a block follows, counted from 1; 0: not known yet */
     double contribution[LINEAR];  /* weight · value */
     double shift[LINEAR];  /* what was absorbed: it stays until the next switch */
     double held_shift[LINEAR];  /* the shift when its release began */
@@ -523,6 +524,8 @@ typedef struct {
 /* ============================ volumetric_errors ============================= */
 
 #define AT_NODE 1e-30  /* squared distance below which a position is a node */
+/* mm², squared distance from the section of a path that is followed, up to which it is never left */
+#define BESIDE 1.0
 
 /* ============================= volumetric_model ============================= */
 

@@ -71,7 +71,7 @@ def corrected_by(found, measurement):
     corrected = measurement.positions.copy()
     for place, position, tool in zip(corrected, measurement.positions.tolist(), measurement.tool_lengths, strict=True):
         errors, correction = zeros(72), zeros(3)
-        errors_at(pool, table, position, errors)
+        errors_at(pool, table, position, [0] * 72, errors)
         assert correction_with(table, position, float(tool), errors, correction)
         place[:3] += correction
     return corrected

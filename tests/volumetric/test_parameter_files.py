@@ -206,7 +206,7 @@ def blocks(draw: st.DrawFn) -> list[ParameterBlock]:
 def test_what_is_written_as_isg_csv_reads_back(written: list[ParameterBlock]) -> None:
     read, findings = csv(write_isg_csv(written))
     assert plain(read) == plain(written)
-    assert findings == ()
+    assert {finding.code for finding in findings} <= {"AXC-LARGE"}
 
 
 @given(st.dictionaries(st.sampled_from(NAMES), st.lists(st.tuples(VALUES, VALUES), max_size=4), min_size=1), VALUES)
@@ -217,7 +217,7 @@ def test_what_is_written_as_etalon_reads_back(tables: dict[str, list[tuple[float
     ]
     read, findings = etalon(write_etalon(written))
     assert plain(read) == plain(written)
-    assert findings == ()
+    assert {finding.code for finding in findings} <= {"AXC-LARGE"}
 
 
 def test_etalon_files_cannot_hold_other_arguments() -> None:

@@ -50,7 +50,7 @@ REFUSED: dict[str, Volumetric] = {
 
 
 def test_what_the_cases_begin_with_compiles() -> None:
-    assert compile_tables(machine_of(GOOD)).volumetric[0].blocks == 1
+    assert compile_tables(machine_of(GOOD)).tables.volumetric[0].blocks == 1
 
 
 @pytest.mark.parametrize(("sentence", "compensation"), REFUSED.items())
@@ -71,7 +71,7 @@ def test_a_grid_wants_every_combination_of_its_coordinates(corner: tuple[float, 
     compile_tables(machine_of(volumetric("XYZ", errors=(replace(table, interpolation=Interpolation.SCATTER),))))
     machine = machine_of(volumetric("XYZ", errors=(table,)))
     if corner == (1.0, 1.0):
-        assert compile_tables(machine).volumetric[0].block[0].points[:2] == [2, 2]
+        assert compile_tables(machine).tables.volumetric[0].block[0].points[:2] == [2, 2]
     else:
         with pytest.raises(CompileError, match="fill no grid"):
             compile_tables(machine)

@@ -142,7 +142,7 @@ def test_splicing_leaves_other_tables_alone(read: Callable[..., Reading]) -> Non
     reading = read(csv=csv, volumetric=["enable_splicing 1"])
     machine = reading.machine
     sizes = {table.name: len(table.values) for table in machine.volumetric[0].errors}
-    assert sizes == {"EXC": 2, "EYC": 4, "EZC": 2, "EXX": 2}
+    assert sizes == {"EXC": 3, "EYC": 4, "EZC": 2, "EXX": 2}
 
 
 def test_blocks_with_the_same_arguments_make_one_table(read: Callable[..., Reading]) -> None:
@@ -280,6 +280,10 @@ def test_a_file_too_many_is_said_to_keep_the_compensation_off(read: Callable[...
         ({"csv": CSV + "#\nEXA\n1e-3\n"}, ("AXC-UNUSED", "errors.csv", 5)),
         ({"csv": CSV + "#\nN0X N0Y N0Z\n0 0 -2\n"}, ("AXC-VECTOR", "errors.csv", 6)),
         ({"csv": CSV + "#\nN0X N0Y N0Z\n0 0 0\n"}, ("AXC-VECTOR", "errors.csv", 6)),
+        ({"csv": CSV + "#\nX0C A0C\n10.1 0.1\n"}, ("AXC-LARGE", "errors.csv", 6)),
+        ({"csv": CSV + "#\nX0C A0C\n10 -0.101\n"}, ("AXC-LARGE", "errors.csv", 6)),
+        ({"volumetric": ["enable_splicing 1"]}, ("AXC-SPLICING", "vol_comp0.lis", 9)),
+        ({"csv": "C EXC\n-180 0.001\n0 0.002\n180 0.0015\n"}, ("AXC-OPEN", "errors.csv", 1)),
         ({"limited": "XZ"}, ("AXC-LIMIT", "vol_comp0.lis", 2)),
         ({"start_up": ["vol_comp[0].max_records 1000", "vol_comp[5].max_records 5"]}, ("70506", "hochlauf.lis", 9)),
     ],
@@ -290,6 +294,31 @@ def test_less_grave_findings_leave_the_compensation_in_place(
     reading = read(**changes)
     assert found(reading) == [expected]
     assert len(reading.machine.volumetric) == 1
+
+
+MODULO_C = machine_files()["achsmd6.lis"] + "kenngr.achs_mode 0x4\n"
+GAP = "C EXC EAC EYC\n10 0.001 0 0\n180 0 5e-6 0\n350 -0.002 1e-5 0\n"
+
+
+def test_a_gap_on_an_axis_that_counts_modulo_is_told_with_the_size_of_the_jump(read: Callable[..., Reading]) -> None:
+    (finding,) = read(csv=GAP, files={"achsmd6.lis": MODULO_C}).findings
+    assert finding.message == (
+        "The records over C do not close: at 0° the correction jumps, EXC by 3 µm, EAC by 10 µrad."
+    )
+    assert read(csv=GAP).findings == ()  # an axis with ends never gets into the gap
+    assert read(csv=GAP, files={"achsmd6.lis": MODULO_C}, volumetric=["enable_splicing 1"]).findings == ()
+
+
+def test_splicing_repeats_the_first_record_wherever_it_is(read: Callable[..., Reading]) -> None:
+    reading = read(csv=GAP, files={"achsmd6.lis": MODULO_C}, volumetric=["enable_splicing 1"])
+    table = reading.machine.volumetric[0].errors[0]
+    assert (table.nodes[-1], table.values[-1]) == ((370.0,), 0.001)
+
+
+def test_a_gap_over_two_axes_is_told_too(read: Callable[..., Reading]) -> None:
+    csv = "X C EXC\n0 0 0.001\n0 270 0.002\n100 0 0\n100 270 0.004\n"
+    (finding,) = read(csv=csv, files={"achsmd6.lis": MODULO_C}).findings
+    assert finding.message.endswith("at -45° the correction jumps, EXC by 4 µm.")
 
 
 def test_a_tool_orientation_is_scaled_and_one_of_length_zero_left_out(read: Callable[..., Reading]) -> None:
@@ -344,7 +373,7 @@ def test_gantry_slaves_are_read(read: Callable[..., Reading]) -> None:
     machine, findings = reading.machine, reading.findings
     assert [finding.code for finding in findings] == ["AXC-TWICE"]
     assert machine.axis("Y2").gantry_master == 2
-    table = compile_tables(machine).volumetric[0]
+    table = compile_tables(machine).tables.volumetric[0]
     members = sorted(zip(table.member[: table.members], table.member_letter, strict=False))
     assert members == [(0, 0), (1, 1), (2, 2), (3, 4), (4, 5), (5, 1)]
 
@@ -434,7 +463,8 @@ def test_written_lists_read_back_to_the_same_machine(compensations: tuple[Volume
     assert read.machine == machine
     assert [one.diagnosis_file for one in read.machine.volumetric] == [one.diagnosis_file for one in compensations]
     codes = {finding.code for finding in read.findings}
-    assert codes <= {"70474"}
+    # Large errors, and tables over a full turn that do not close.
+    assert codes <= {"70474", "AXC-LARGE", "AXC-OPEN"}
 
 
 def test_a_list_that_cannot_be_read_back_is_not_written(tmp_path: Path) -> None:

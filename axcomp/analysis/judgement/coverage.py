@@ -19,7 +19,7 @@ from ...lists import Position
 from ...lists.findings import Findings
 from ...model.machine import Axis, AxisType, Machine
 from ...model.quantity import symbol
-from ...model.volumetric import ErrorTable, Volumetric
+from ...model.volumetric import FULL_TURN, ErrorTable, Volumetric, turn_of
 from .positions import Positions
 from .trajectory import column_of, setpoints
 
@@ -139,16 +139,21 @@ def _of_volumetric(
     """Yield the coverage of each axis by the narrowest of its error tables."""
     position = positions.of_volumetric(volumetric.index)
     for letter, number in volumetric.axes:
-        tables = [table for table in volumetric.errors if letter in table.arguments]
         axis = names[number]
-        if number not in moved or not tables or (axis.type is not AxisType.TRANSLATORY and axis.modulo is not None):
+        tables = [table for table in volumetric.errors if letter in table.arguments]
+        if axis.type is not AxisType.TRANSLATORY:
+            tables = [table for table in tables if np.ptp(_range(table, letter)) < FULL_TURN]
+        if number not in moved or not tables:
             continue
         ranges = [_range(table, letter) for table in tables]
         held = (max(low for low, _ in ranges), min(high for _, high in ranges))
-        offset = volumetric.offsets["XYZABC".index(letter)] * (1.0 if letter in "XYZ" else 180.0 / np.pi)
+        used = moved[number] + volumetric.offsets["XYZABC".index(letter)] * (1.0 if letter in "XYZ" else 180.0 / np.pi)
+        turn = turn_of(*held, None if axis.modulo is None else axis.modulo.length)
+        if turn is not None:
+            used = turn[0] + np.mod(used - turn[0], turn[1])
         errors = " ".join(chain((table.name for table in tables[:3]), ["…"] if len(tables) > 3 else []))
         name = f"volumetric compensation {volumetric.index} ({errors})"
-        yield _coverage(name, axis.name, symbol(axis.unit), held, moved[number] + offset, position)
+        yield _coverage(name, axis.name, symbol(axis.unit), held, used, position)
 
 
 def _range(table: ErrorTable, letter: str) -> tuple[float, float]:

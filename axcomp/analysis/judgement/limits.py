@@ -15,7 +15,7 @@ from ...kernel.record import zeros
 from ...kernel.volumetric_model import correction_at
 from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
-from ...model.volumetric import LETTERS, LINEAR, Volumetric
+from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from ...runtime.compile import compile_tables
 from .positions import Positions
 
@@ -97,7 +97,7 @@ def _corrections(
     table = tables.volumetric[0]
     for position in product(*_sides(machine, volumetric)):
         correction = zeros(len(LINEAR))
-        if correction_at(pool, table, list(position), tool_length, correction):
+        if correction_at(pool, table, list(position), tool_length, [0] * len(ERRORS), correction):
             yield position, correction
 
 
