@@ -5,11 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkTest
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Plane
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 

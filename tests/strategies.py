@@ -10,13 +10,17 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import (
+    Backlash,
+    Cross,
+    Crosstalk,
+    CrosstalkCurve,
+    CrosstalkTest,
+    Friction,
+    Leadscrew,
+    Plane,
+    Temperature,
+)
 from axcomp.model.delaunay import triangulate
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 

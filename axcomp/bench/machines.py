@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..kinds.cross import Cross
-from ..kinds.crosstalk import Crosstalk, CrosstalkTest
-from ..kinds.friction import Friction
-from ..kinds.leadscrew import Leadscrew
-from ..kinds.plane import Plane
+from ..kinds import Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Plane
 from ..model.machine import AXES_MAX, Axis, Machine
 
 

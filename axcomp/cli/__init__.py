@@ -8,25 +8,38 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
 
-COMMANDS = (
-    "build",
-    "check",
-    "parameters",
-    "run",
-    "demo",
-    "bench",
-    "measure",
-    "create",
-    "convert",
-    "show",
-    "sweep",
-    "budget",
-    "report",
-    "diagnose",
-)
-"""Each is a module with ``add_subparser(subparsers)``, which sets ``do``: a function of the options → exit status."""
+COMMANDS = {
+    "build": "build the FMU of a machine from its lists",
+    "check": "check the lists of a machine",
+    "parameters": "list the parameters that are understood",
+    "run": "run setpoints and NC commands through a machine",
+    "demo": "couple compensation and plant, and show what is left of the errors",
+    "bench": "measure what a cycle costs, engine and FMU",
+    "measure": "evaluate positioning measurements by ISO 230-2",
+    "create": "make compensation tables from measurements",
+    "convert": "convert leadscrew and cross tables to and from other controllers",
+    "show": "show compensation tables as pictures and tables",
+    "sweep": "run many variations of a machine",
+    "budget": "what each compensation and each error contributes along a path",
+    "report": "write everything about a machine on one page",
+    "diagnose": "write all records of the volumetric compensations",
+}
+"""What each command does, for the help; each is a module with ``add_subparser(subparsers)``.
+
+That sets ``do``: a function of the options → exit status. Only the module of the command that runs is imported.
+"""
+
+EXTRA = {
+    "sweep": ("dask", "pandas"),
+    "measure": ("rich",),
+    "create": ("rich",),
+    "show": ("rich",),
+    "diagnose": ("openpyxl",),
+}
+"""Packages of the extra ``workbench`` without which a command does nothing."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,9 +50,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
-    modules, missing = _modules(given[:1])
-    for command in modules:
-        command.add_subparser(subparsers)
+    missing = [name for name, packages in EXTRA.items() if not all(map(find_spec, packages))]
+    if given and given[0] in COMMANDS:
+        _module(given[0]).add_subparser(subparsers)
+    else:
+        for name, what in COMMANDS.items():
+            if name not in missing:
+                subparsers.add_parser(name, help=what)
     if missing:
         parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(missing)}."
     options = parser.parse_args(given)
@@ -65,23 +82,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return status
 
 
-def _modules(wanted: Sequence[str]) -> tuple[list[ModuleType], list[str]]:
-    """Import the command that is wanted, else all for the help: what one needs must not slow down the others.
-
-    The second list names the commands whose packages are not installed.
-    """
-    named = [name for name in COMMANDS if name in wanted]
-    modules, missing = [], []
-    for name in named or COMMANDS:
-        try:
-            modules.append(import_module(f".{name}", __name__))
-        except ModuleNotFoundError as error:
-            if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
-                raise
-            if named:
-                raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
-            missing.append(name)
-    return modules, missing
+def _module(name: str) -> ModuleType:
+    """Import the module of a command; SystemExit with a sentence if one of its packages is missing."""
+    try:
+        return import_module(f".{name}", __name__)
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
+            raise
+        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
 
 
 def _print_anything() -> None:

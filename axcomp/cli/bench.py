@@ -30,7 +30,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "bench",
-        help="measure what a cycle costs, engine and FMU",
         description="Measure the cost of a cycle and of a whole trajectory: medians with least and greatest value.",
         epilog=EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -45,7 +45,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "budget",
-        help="what each compensation and each error contributes along a path",
         description="Show how many µm each compensation and each volumetric error contributes along a path.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -43,7 +43,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "build",
-        help="build the FMU of a machine from its lists",
         description="Build an FMI 2.0 co-simulation FMU that corrects setpoints as the controller's lists say.",
         epilog=EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,

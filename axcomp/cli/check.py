@@ -33,7 +33,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command to the command line."""
     parser = subparsers.add_parser(
         "check",
-        help="check the lists of a machine",
         description="Read the lists of a machine and print what was found, one finding a line: "
         "file:line: severity code: sentence. The exit status is the number of errors, at most 100.",
         epilog=_EXAMPLE,

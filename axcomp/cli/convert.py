@@ -39,7 +39,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "convert",
-        help="convert leadscrew and cross tables to and from other controllers",
         description="Convert leadscrew and cross compensation tables to and from other controllers.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

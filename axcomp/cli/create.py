@@ -96,7 +96,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "create",
-        help="make compensation tables from measurements",
         description="Makes a compensation table from measurements and puts it into a list; the rest of the list stays.",
         epilog="example:\n  axcomp create leadscrew --from x.rtl --into achskw1.lis --bound 0.5",
         formatter_class=argparse.RawDescriptionHelpFormatter,

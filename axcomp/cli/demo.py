@@ -30,7 +30,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "demo",
-        help="couple compensation and plant, and show what is left of the errors",
         description="Build axcomp.fmu and plant.fmu, couple them in FMPy, and compare the errors of the machine "
         "without and with compensation, in a table and a picture.",
         epilog=EXAMPLE,

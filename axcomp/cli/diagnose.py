@@ -31,7 +31,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "diagnose",
-        help="write all records of the volumetric compensations",
         description="Write the diagnosis files of volumetric compensations: spreadsheets of all records, sorted.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -7,15 +7,16 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..analysis.judgement import Demand, Judgement, judge, sign_of
-from ..analysis.judgement.dynamics import CYCLE_TIME
-from ..analysis.judgement.trajectory import setpoints
-from ..engine.trajectory import InputFile, read_input
+from ..analysis.judgement.judging import Judgement, judge
 from ..lists import Reading
-from ..measurement.columns import MeasurementError
-from ..measurement.positioning import Positioning, read_positioning
-from ..model.machine import Machine
+from ..model.machine import CYCLE_TIME, Machine
+
+if TYPE_CHECKING:
+    from ..analysis.judgement import Demand
+    from ..engine.trajectory import InputFile
+    from ..measurement.positioning import Positioning
 
 SPEEDS = {"mm/min": 1 / 60, "m/min": 1e3 / 60, "mm/s": 1.0, "m/s": 1e3}
 SPEEDS |= {"deg/min": 1 / 60, "°/min": 1 / 60, "deg/s": 1.0, "°/s": 1.0, "rpm": 6.0}
@@ -72,8 +73,35 @@ def add_judgement_options(parser: argparse.ArgumentParser) -> None:
 def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
     """Return what the options give; what is wrong with one of them does not hide the others."""
     faults: list[str] = []
-    measurements = []
-    readings = []
+    measurements, readings = _measurements(options, machine, faults) if options.measurement else ([], [])
+    demand = None
+    try:
+        demand = _demand(options, machine)
+    except ValueError as error:
+        faults.append(str(error))
+    given = None
+    try:
+        if options.input is not None:
+            from ..analysis.judgement.trajectory import setpoints
+            from ..engine.trajectory import read_input
+
+            found = read_input(options.input)
+            setpoints(found.columns, machine)
+            given = found
+    except ValueError as error:
+        faults.append(str(error))
+    return Evidence(tuple(measurements), tuple(readings), demand, given, tuple(faults))
+
+
+def _measurements(
+    options: argparse.Namespace, machine: Machine, faults: list[str]
+) -> tuple[list[tuple[Positioning, str, str]], list[Positioning]]:
+    """Return the measurements that can be used, with their axes, and all that could be read."""
+    from ..analysis.judgement import sign_of
+    from ..measurement.columns import MeasurementError
+    from ..measurement.positioning import read_positioning
+
+    measurements, readings = [], []
     for file in options.measurement:
         try:
             measurement = read_positioning(file, of_another_axis=options.over is not None)
@@ -84,20 +112,7 @@ def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
             measurements.append((measurement, axis, over))
         except (MeasurementError, ValueError) as error:
             faults.append(str(error))
-    demand = None
-    try:
-        demand = _demand(options, machine)
-    except ValueError as error:
-        faults.append(str(error))
-    given = None
-    try:
-        if options.input is not None:
-            found = read_input(options.input)
-            setpoints(found.columns, machine)
-            given = found
-    except ValueError as error:
-        faults.append(str(error))
-    return Evidence(tuple(measurements), tuple(readings), demand, given, tuple(faults))
+    return measurements, readings
 
 
 def judgement_of(options: argparse.Namespace, reading: Reading, evidence: Evidence) -> Judgement:
@@ -123,6 +138,8 @@ def _only_axis(machine: Machine, file: str) -> str:
 def _demand(options: argparse.Namespace, machine: Machine) -> Demand | None:
     if not (options.feed or options.max_velocity or options.max_acceleration):
         return None
+    from ..analysis.judgement import Demand
+
     if not options.cycle_time > 0.0:
         raise ValueError(f"--cycle-time: {options.cycle_time:g} s is no cycle time")
     return Demand(

@@ -40,7 +40,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "measure",
-        help="evaluate positioning measurements by ISO 230-2",
         description="Evaluates positioning measurements by ISO 230-2: accuracy, repeatability, reversal.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

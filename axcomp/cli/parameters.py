@@ -20,7 +20,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command to the command line."""
     parser = subparsers.add_parser(
         "parameters",
-        help="list the parameters that are understood",
         description="Print every list parameter with its ids, type, range, unit and default.",
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,

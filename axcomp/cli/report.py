@@ -28,7 +28,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "report",
-        help="write everything about a machine on one page",
         description="Write a self-contained HTML page about the compensations of a machine.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -51,7 +51,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "run",
-        help="run setpoints and NC commands through a machine",
         description="Run a program of setpoints and NC commands through the compensations of a machine.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

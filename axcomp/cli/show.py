@@ -39,7 +39,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "show",
-        help="show compensation tables as pictures and tables",
         description="Show the compensation tables of a machine, or the difference of two machines.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -56,7 +56,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the sub-command."""
     parser = subparsers.add_parser(
         "sweep",
-        help="run many variations of a machine",
         description="Run a machine many times over varied lists, inputs and parameters. Exit status: failed runs.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ..kinds import shown
+from ..kinds import Cross, Leadscrew, shown
 from ..kinds import tables_of as tables_of_machine
-from ..kinds.cross import Cross
-from ..kinds.leadscrew import Leadscrew
 from ..model.curve import Curve
 from ..model.grid import Grid
 from ..model.machine import Axis, AxisType, Machine, ModuloRange

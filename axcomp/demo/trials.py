@@ -15,9 +15,7 @@ import numpy.typing as npt
 
 from ..engine.motion import Array, Course, Limits, Setpoints, move
 from ..interface.variables import identifier
-from ..kinds import KIND_NAMES, KINDS
-from ..kinds.crosstalk import Crosstalk
-from ..kinds.plane import Plane
+from ..kinds import KIND_NAMES, KINDS, Crosstalk, Plane
 from ..model.machine import Axis, Machine
 
 Cycles = npt.NDArray[np.intp]

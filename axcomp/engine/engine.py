@@ -21,6 +21,7 @@ from ..model.machine import CYCLE_TIME, Machine
 from ..native.library import compiled_kernel
 from ..native.runner import CompiledTables, run_compiled
 from ..runtime.runtime import Runtime
+from .completion import completed
 from .nc_control import NcControl
 from .nc_scanner import NcError
 
@@ -122,6 +123,7 @@ class Engine:
         self._by_name = by_name(self.variables)
         self._slots: dict[str, Slot] = {}
         self._bound: Inputs | None = None
+        self._said: set[str] = set()
         self._outputs = with_causality(self.variables, "output")
 
     @property
@@ -164,7 +166,8 @@ class Engine:
         ----------
         trajectory : mapping of str to array_like, shape (n,)
             Inputs by name; a ``time`` column is ignored, inputs that are not named are held. A column ``command`` has
-            NC commands, "" in most rows: they act in the cycle of their row.
+            NC commands, "" in most rows: they act in the cycle of their row. What an axis with a column of setpoints
+            has no columns for follows from them: velocity, acceleration, and the velocities to come.
 
         Raises
         ------
@@ -174,6 +177,7 @@ class Engine:
             If the columns differ in length, or a command is none; an UPDATE can be refused midway.
         """
         cycles = _length({name: column for name, column in trajectory.items() if name != "time"})
+        trajectory, said = self._completed(trajectory)
         given = [self._input(name) for name in trajectory if name not in ("time", COMMAND)]
         columns = [_column(variable, trajectory[variable.name]) for variable in given]
         if not given:
@@ -185,7 +189,8 @@ class Engine:
                 self.nc.check(block)
         instants = np.arange(self.runtime.cycles, self.runtime.cycles + cycles, dtype=np.float64)
         time = self.runtime.start_time + self.runtime.tables.cycle_time * instants
-        notices: list[str] = []
+        notices: list[str] = [text for text in said if text not in self._said]
+        self._said.update(said)
         pieces = []
         for first, last in _pieces(blocks, cycles):
             rows = [column[first:last] for column in columns]
@@ -200,6 +205,16 @@ class Engine:
         if len(pieces) > 1:
             values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
         return Result(time, values, (*notices, *self.runtime.notices()))
+
+    def _completed(self, trajectory: Mapping[str, ArrayLike]) -> tuple[dict[str, ArrayLike], list[str]]:
+        """Add what follows from the setpoints and velocities of a trajectory (see ``completion``)."""
+        state = self.runtime.state
+        before = [
+            (motion.setpoint, motion.velocity) if axis.started else None
+            for axis, motion in zip(state.axis, state.motion.axis, strict=True)
+        ]
+        modulo = [table.modulo_range for table in self.runtime.tables.axis]
+        return completed(trajectory, self.variables, self.runtime.tables.cycle_time, before, modulo)
 
     def _run_piece(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
         """Run some rows, compiled if possible."""

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.crosstalk import Crosstalk, CrosstalkTest
+from ..kinds import Crosstalk, CrosstalkTest
 from ..measurement.columns import LENGTHS, Column, read_columns
 from ..measurement.positioning import TARGET_DIGITS, whole_runs
 from ..model.quantity import shown

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine.motion import Array
-from ..kinds.cross import Cross
-from ..kinds.leadscrew import Leadscrew
+from ..kinds import Cross, Leadscrew
 from ..measurement.iso230 import SYMBOLS, evaluate
 from ..measurement.positioning import Positioning
 from ..model.curve import Curve

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.friction import Friction
+from ..kinds import Friction
 from ..measurement.columns import Column, read_columns
 from ..measurement.positioning import whole_runs
 from ..plot.style import labelled

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
-from ..kinds.plane import Plane
+from ..kinds import Plane
 from ..measurement.columns import ANGLES, LENGTHS, Column, read_columns
 from ..measurement.positioning import TARGET_DIGITS, angular, unit_of, whole_runs
 from ..model.grid import Grid

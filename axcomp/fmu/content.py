@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ..interface.variable import Variable
 from ..interface.variables import Naming, identifier, variables_of
-from ..kinds.compiling import CompileError
+from ..kinds import CompileError
 from ..lists import Finding, Reading, read_machine
 from ..model.machine import Machine
 from ..runtime.compile import Compiled, compile_tables

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import inspect
+import dataclasses
+import enum
 import io
 import pickle
+import sys
 import zlib
 from dataclasses import dataclass, fields
 from typing import Any
 
-from ..kinds import KINDS
-from ..model import machine as machine_classes
-from ..model import volumetric as volumetric_classes
+from .. import kinds, model
 from ..model.machine import Machine
 from ..runtime.snapshot import SnapshotError
 
@@ -56,13 +56,9 @@ class _MachineUnpickler(pickle.Unpickler):
     """Loads the dataclasses that a Machine consists of, and nothing else."""
 
     def find_class(self, module: str, name: str) -> Any:
-        for classes in (machine_classes, volumetric_classes, *map(inspect.getmodule, KINDS.values())):
-            found = getattr(classes, name, None)
-            if (
-                classes is not None
-                and module == classes.__name__
-                and isinstance(found, type)
-                and found.__module__ == module
-            ):
-                return found
+        for room in (model, kinds):
+            if module.startswith(f"{room.__name__}."):
+                found = getattr(sys.modules.get(module), name, None)
+                if dataclasses.is_dataclass(found) or (isinstance(found, type) and issubclass(found, enum.Enum)):
+                    return found
         raise pickle.UnpicklingError(f"{module}.{name}")

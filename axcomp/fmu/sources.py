@@ -11,6 +11,9 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+LOADS_BY_NAME = b'import_module(f".{'
+"""Stands in a module that imports others of its package by names that only the program knows: all are needed."""
+
 Module = tuple[str, ...]
 """Dotted name below the package; () is the package itself."""
 
@@ -55,7 +58,11 @@ def needed_files(slave: Path, package: Path) -> list[Path]:
     waiting: list[tuple[Path, Module, bool]] = [(slave, (), False)]
     while waiting:
         path, module, is_package = waiting.pop()
-        for base in _imports(path, module if is_package else module[:-1], package.name):
+        parent = module if is_package else module[:-1]
+        by_name = (
+            [(*parent, one.stem) for one in path.parent.glob("*.py")] if LOADS_BY_NAME in path.read_bytes() else []
+        )
+        for base in (*_imports(path, parent, package.name), *by_name):
             for end in range(len(base) + 1):
                 needed = _file_of(package, base[:end])
                 if needed is not None and needed not in found:

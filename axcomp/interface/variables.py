@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from ..kernel.records import Inputs, Outputs
-from ..kinds import KINDS
+from ..kinds import KINDS, kinds_of
 from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, Machine
 from ..model.volumetric import COMPENSATIONS_MAX, Volumetric
 from .dependencies import Dependencies, Input, volumetric_input, volumetric_switch
@@ -53,8 +53,8 @@ class Declaration(NamedTuple):
 
     @property
     def flat(self) -> str:
-        """Name without dots."""
-        return self.name.replace(".", "_")
+        """Name without dots and brackets."""
+        return self.name.replace(".", "_").replace("[", "_").replace("]", "")
 
     @property
     def field(self) -> str:
@@ -85,6 +85,14 @@ OF_MACHINE = (
     ),
     Declaration(
         4, "cycle_time", "parameter", CYCLE_TIME, "Cycle time of the position controller", "s", variability="fixed"
+    ),
+    Declaration(
+        6,
+        "derive_motion",
+        "parameter",
+        False,
+        "Velocities and accelerations are not given: they follow from the setpoints",
+        variability="fixed",
     ),
     Declaration(5, "tool_length", "input", 0.0, "Length of the tool along its orientation (N0*)", "mm", VOLUMETRIC),
 )
@@ -138,9 +146,10 @@ def _of_kinds() -> Iterator[Declaration]:
         if kind.adds_to == "setpoint":
             text, path = f"Correction of the setpoint by the {called}", f"contribution[{number}]"
             yield Declaration(first + 2, f"{name}.correction", "output", 0.0, text, POSITION, name, path=path)
-        for place, own in enumerate(kind.inputs, first + 3):
-            path = f"compensation.{name}.{own.name}"
-            yield Declaration(place, f"{name}.{own.name}", "input", 0.0, own.description, own.unit, name, path=path)
+        for own in kind.inputs:
+            start: Value = False if own.boolean else 0.0
+            path = f"compensation.{name}.{own.path}"
+            yield Declaration(own.identifier, own.name, "input", start, own.description, own.unit, name, path=path)
 
 
 AXIS_DECLARATIONS = (*OF_AXIS, *_of_kinds())
@@ -255,7 +264,8 @@ def _present(machine: Machine, axis: Axis) -> Iterator[Declaration]:
     kinds = {"", *axis.kinds}
     if any(axis.number in machine.corrected_by(one) for one in machine.volumetric):
         kinds.add(VOLUMETRIC)
-    return (declaration for declaration in AXIS_DECLARATIONS if declaration.kind in kinds)
+    absent = {own.name for kind in kinds_of(axis) for own in kind.inputs if not own.present(getattr(axis, kind.name))}
+    return (one for one in AXIS_DECLARATIONS if one.kind in kinds and one.name not in absent)
 
 
 def _volumetric_prefix(index: int, naming: Naming) -> str:
@@ -269,7 +279,7 @@ def _start(declaration: Declaration, axis: Axis) -> Value:
     if declaration.kind in KINDS:
         compensation = getattr(axis, declaration.kind)
         for own in KINDS[declaration.kind].inputs:
-            if declaration.name == f"{declaration.kind}.{own.name}" and compensation is not None:
+            if declaration.name == own.name and own.field and compensation is not None:
                 return float(getattr(compensation, own.field))
     return declaration.start
 

@@ -7,7 +7,7 @@ language and on any machine, give the same bits. ``record`` is the only module t
 EXPORTS = (
     "set_initial_inputs",
     "cycle",
-    "has_left_table",
+    "has_notice",
     "update_error",
     "adopt_axis",
     "keep_declared",

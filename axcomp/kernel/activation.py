@@ -6,30 +6,62 @@ crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12
 
 from __future__ import annotations
 
-from .compensations import KINDS, is_renewed
-from .records import AxisInputs, AxisState, AxisTable, Inputs
+from .records import AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs
 from .switching import SwitchTable, advance_switch, begin_switch, heed_command
 
 
-def activate(table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs, moving: bool) -> None:
+def activate_if_stirred(
+    table: AxisTable,
+    axis: AxisState,
+    inputs: Inputs,
+    given: AxisInputs,
+    out: AxisOutputs,
+    moving: bool,
+    references_changed: bool,
+) -> None:
+    """Advance the switches of an axis by one cycle, unless they have settled and nothing is commanded or has changed.
+
+    Manual compensations go off by reset, program end, or the edge with which the axis is released.
+    """
+    released = inputs.reset or inputs.program_end or (given.released and not axis.released)
+    axis.released = given.released
+    stirred = released or references_changed or not axis.settled
+    for k in range(table.kinds):
+        kind = table.kind[k]
+        if given.enable[kind] != axis.switching[kind].enable and table.switching[kind].configured:
+            stirred = True
+    if stirred:
+        activate(table, axis, inputs, given, out, released, moving)
+
+
+def activate(
+    table: AxisTable,
+    axis: AxisState,
+    inputs: Inputs,
+    given: AxisInputs,
+    out: AxisOutputs,
+    released: bool,
+    moving: bool,
+) -> None:
     """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
 
     While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
     """
-    released = inputs.reset or inputs.program_end or (given.released and not axis.released)
-    axis.released = given.released
-    for kind in range(KINDS):
+    axis.settled = axis.started and not axis.held
+    for k in range(table.kinds):
+        kind = table.kind[k]
+        state = axis.switching[kind]
         if table.switching[kind].configured:
-            state = axis.switching[kind]
             ready = is_referenced(table.switching[kind], inputs)
             if not axis.started:
-                is_renewed(kind, axis.compensation, given.compensation)
                 begin_switch(table.switching[kind], state, given.enable[kind], ready, released)
             else:
                 heed_command(table.switching[kind], state, given.enable[kind], released, given.no_move)
                 if not axis.held:
-                    state.renewed = is_renewed(kind, axis.compensation, given.compensation) or state.renewed
-                    advance_switch(table.switching[kind], state, ready, moving)
+                    settled = advance_switch(table.switching[kind], state, ready, moving)
+                    axis.settled = axis.settled and settled
+        if not axis.held:
+            out.active[kind] = state.step > 0
 
 
 def is_referenced(table: SwitchTable, inputs: Inputs) -> bool:

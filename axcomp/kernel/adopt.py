@@ -5,9 +5,11 @@ Only a volumetric compensation switches off, without motion; an automatic one th
 
 from __future__ import annotations
 
-from .compensations import KINDS, adopt_compensation, adopt_inputs, move_compensation
-from .records import ERROR_UPDATE, AxisInputs, AxisState, AxisTable, Outputs, State, Tables
-from .switching import adopt_switch
+from .compensations import KINDS, adopt_compensation, adopt_inputs, move_compensation, settled_value
+from .record import Vec
+from .records import ERROR_UPDATE, AxisInputs, AxisTable, Outputs, State, Tables
+from .shift import adopt_shift
+from .switching import adopt_switch, blend_in
 from .volumetric_switching import adopt_volumetric
 
 
@@ -30,21 +32,40 @@ def update_error(before: AxisTable, after: AxisTable) -> int:
     return 0
 
 
-def adopt_axis(before: AxisTable, after: AxisTable, axis: AxisState, given: AxisInputs) -> None:
-    """Make the state of an axis fit its new tables (``update_error`` is 0); what was declared stays declared."""
-    for kind in range(KINDS):
-        adopt_switch(before.switching[kind], after.switching[kind], axis.switching[kind])
-        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
-        if not after.switching[kind].configured:
-            after.switching[kind].blend_cycles = before.switching[kind].blend_cycles
+def adopt_axis(
+    before: AxisTable, before_pool: Vec, after: AxisTable, after_pool: Vec, state: State, given: AxisInputs, i: int
+) -> None:
+    """Make the state of axis i fit its new tables (``update_error`` is 0); what was declared stays declared.
+
+    Where the new tables say something else for the position where the axis is, the difference is blended in.
+    """
+    axis = state.axis[i]
+    axis.settled = False
     keep_declared(before, after)
+    for k in range(after.kinds):
+        kind = after.kind[k]
+        own = axis.switching[kind]
+        switching = after.switching[kind]
+        if not switching.configured:
+            switching.blend_cycles = before.switching[kind].blend_cycles
+        weight = own.weight
+        value = 0.0
+        if weight > 0.0:
+            value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
+        adopt_switch(before.switching[kind], switching, own)
+        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
+        if weight > 0.0 and switching.configured:
+            value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)
+        blend_in(switching, own, weight * value)
     adopt_inputs(before.compensation, after.compensation, given.compensation)
-    axis.shift.step = min(axis.shift.step, after.shift_cycles)
+    adopt_shift(before.shift_cycles, after.shift_cycles, axis.shift)
 
 
 def keep_declared(before: AxisTable, after: AxisTable) -> None:
     """Let what an axis activated at the start count for the next update too."""
+    after.kinds = before.kinds
     for kind in range(KINDS):
+        after.kind[kind] = before.kind[kind]
         after.switching[kind].reserved = before.switching[kind].reserved
         after.switching[kind].points_error = before.switching[kind].points_error
 

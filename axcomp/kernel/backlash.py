@@ -35,6 +35,11 @@ def backlash_value(table: BacklashTable, state: BacklashState, direction: int) -
             state.step += 1
     elif state.step > 0:
         state.step -= 1
+    return backlash_at(table, state)
+
+
+def backlash_at(table: BacklashTable, state: BacklashState) -> float:
+    """Return the correction where a reversal stands."""
     return table.amount * ramp(state.step, table.reversal_cycles)
 
 

@@ -8,11 +8,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_fits, backlash_value
+from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_at, backlash_fits, backlash_value
 from .cross import CrossState, CrossTable, adopt_cross, cross_fits, cross_value, move_cross
 from .crosstalk import CrosstalkState, CrosstalkTable, adopt_crosstalk, crosstalk_fits, crosstalk_value, move_crosstalk
-from .friction import FrictionState, FrictionTable, adopt_friction, friction_current, friction_fits, move_friction
-from .leadscrew import LeadscrewState, LeadscrewTable, adopt_leadscrew, leadscrew_fits, leadscrew_value, move_leadscrew
+from .friction import (
+    FrictionInputs,
+    FrictionState,
+    FrictionTable,
+    adopt_friction,
+    friction_current,
+    friction_fits,
+    move_friction,
+)
+from .leadscrew import (
+    LeadscrewState,
+    LeadscrewTable,
+    adopt_leadscrew,
+    leadscrew_at,
+    leadscrew_fits,
+    leadscrew_value,
+    move_leadscrew,
+)
 from .motion import Motion
 from .plane import PlaneTable, move_plane, plane_fits, plane_value
 from .record import Vec
@@ -67,6 +83,7 @@ class CompensationInputs:
     """What the compensations of an axis are given besides its motion."""
 
     temperature: TemperatureInputs
+    friction: FrictionInputs
 
 
 def compensation_value(
@@ -74,6 +91,7 @@ def compensation_value(
     pool: Vec,
     tables: CompensationTables,
     states: CompensationStates,
+    given: CompensationInputs,
     motion: Motion,
     axis: int,
     position: float,
@@ -97,19 +115,47 @@ def compensation_value(
         return leadscrew_value(pool, tables.leadscrew, states.leadscrew, position)
     if kind == BACKLASH:
         return backlash_value(tables.backlash, states.backlash, motion.axis[axis].direction)
-    return friction_current(pool, tables.friction, states.friction, motion.axis[axis], cycle_time)
+    return friction_current(pool, tables.friction, states.friction, given.friction, motion.axis[axis], cycle_time)
 
 
-def is_renewed(kind: int, states: CompensationStates, given: CompensationInputs) -> bool:
-    """Take over the inputs of a kind; True: its values change by them, and are to blend in."""
+def settled_value(
+    kind: int, pool: Vec, tables: CompensationTables, states: CompensationStates, motion: Motion, axis: int
+) -> float:
+    """Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0."""
+    if kind == LEADSCREW:
+        return leadscrew_at(pool, tables.leadscrew, states.leadscrew, states.leadscrew.counted)
+    if kind == BACKLASH:
+        return backlash_at(tables.backlash, states.backlash)
+    if kind == CROSS:
+        return cross_value(pool, tables.cross, states.cross, motion)
+    if kind == PLANE:
+        return plane_value(pool, tables.plane, motion)
+    if kind == CROSSTALK:
+        return crosstalk_value(pool, tables.crosstalk, states.crosstalk, motion)
     if kind == TEMPERATURE:
-        return take_temperature(states.temperature, given.temperature)
-    return False
+        return temperature_value(tables.temperature, states.temperature, motion.axis[axis].setpoint)
+    return 0.0
 
 
-def has_left_table(kind: int, states: CompensationStates) -> bool:
-    """Tell whether a kind has been used where its table says nothing: the machine's user should know."""
-    return kind == CROSSTALK and states.crosstalk.outside
+def has_inputs(kind: int) -> bool:
+    """Tell whether a kind is given what its values change by."""
+    return kind == TEMPERATURE
+
+
+def renew(
+    kind: int, tables: CompensationTables, states: CompensationStates, given: CompensationInputs, position: float
+) -> float:
+    """Take over the inputs of a kind; return how much less it adds at full weight with them."""
+    if kind == TEMPERATURE:
+        return take_temperature(tables.temperature, states.temperature, given.temperature, position)
+    return 0.0
+
+
+def has_notice(kind: int, states: CompensationStates) -> bool:
+    """Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know."""
+    if kind == CROSSTALK:
+        return states.crosstalk.outside
+    return kind == FRICTION and states.friction.predicted
 
 
 def begin_inputs(tables: CompensationTables, given: CompensationInputs) -> None:

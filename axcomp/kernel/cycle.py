@@ -8,13 +8,14 @@ corrections + shift; the friction current from the setpoint velocity; display po
 
 from __future__ import annotations
 
-from .activation import activate
-from .compensations import FRICTION, LEADSCREW, compensation_value
+from .activation import activate_if_stirred
+from .compensations import FRICTION, LEADSCREW, compensation_value, has_inputs, renew
+from .interpolation import nearest
 from .motion import AxisMotion, move_axis
 from .record import Vec
-from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
-from .shift import absorb, release_shift
-from .switching import SwitchState, SwitchTable, contribution_of
+from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, Inputs, Outputs, State, Tables
+from .shift import absorb_switch, release_shift
+from .switching import blend_in, contribution_of
 from .volumetric import compensate_volume
 
 LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could overflow
@@ -22,24 +23,30 @@ LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could
 
 def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outputs) -> None:
     """Run one cycle: the outputs belong to these inputs."""
+    references_changed = False
     for i in range(tables.axis_count):
-        accept(tables.axis[i], state.axis[i], state.motion.axis[i], inputs.axis[i], tables.cycle_time)
+        accept(tables, state.axis[i], state.motion.axis[i], inputs, i)
+        if inputs.axis[i].referenced != state.axis[i].referenced:
+            state.axis[i].referenced = inputs.axis[i].referenced
+            references_changed = True
     if tables.volumetrics > 0:
         compensate_volume(tables, pool, state, inputs, outputs)
     for i in range(tables.axis_count):
         axis = state.axis[i]
         if inputs.reset:
             axis.error = 0
-        activate(tables.axis[i], axis, inputs, inputs.axis[i], state.motion.axis[i].moving)
+        moving = state.motion.axis[i].moving
+        activate_if_stirred(tables.axis[i], axis, inputs, inputs.axis[i], outputs.axis[i], moving, references_changed)
         if axis.held:
             outputs.axis[i].error = ERROR_INPUT
         else:
-            correct_axis(tables, pool, state, inputs, outputs.axis[i], i)
+            correct_axis(tables, pool, state, inputs.axis[i], outputs.axis[i], i)
             outputs.axis[i].error = axis.error
 
 
-def accept(table: AxisTable, axis: AxisState, motion: AxisMotion, given: AxisInputs, cycle_time: float) -> None:
+def accept(tables: Tables, axis: AxisState, motion: AxisMotion, inputs: Inputs, i: int) -> None:
     """Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle."""
+    given = inputs.axis[i]
     axis.held = not (
         -LARGEST < given.setpoint < LARGEST
         and -LARGEST < given.velocity < LARGEST
@@ -49,56 +56,74 @@ def accept(table: AxisTable, axis: AxisState, motion: AxisMotion, given: AxisInp
     if not axis.held:
         if not axis.started:
             motion.counted = given.setpoint
-        move_axis(motion, given.setpoint, given.velocity, cycle_time, table.modulo_range)
-        motion.acceleration = given.acceleration
+            motion.setpoint = given.setpoint
+        velocity = given.velocity
+        acceleration = given.acceleration
+        if inputs.derive_motion:
+            way = nearest(given.setpoint - motion.setpoint, tables.axis[i].modulo_range)
+            velocity = way / tables.cycle_time
+            acceleration = (velocity - motion.velocity) / tables.cycle_time
+        move_axis(motion, given.setpoint, velocity, tables.cycle_time, tables.axis[i].modulo_range)
+        motion.acceleration = acceleration
 
 
-def correct_axis(tables: Tables, pool: Vec, state: State, inputs: Inputs, out: AxisOutputs, i: int) -> None:
+def correct_axis(tables: Tables, pool: Vec, state: State, given: AxisInputs, out: AxisOutputs, i: int) -> None:
     """Correct one axis."""
     table = tables.axis[i]
     axis = state.axis[i]
     motion = state.motion.axis[i]
-    release_shift(table.shift_cycles, axis.shift, motion.moving)
+    if axis.shift.pending:
+        release_shift(table.shift_cycles, axis.shift, motion.moving)
 
     correction = 0.0
-    position = motion.setpoint
-    for kind in range(FRICTION):
-        if kind == LEADSCREW:
-            position = motion.setpoint + (correction + axis.shift.before.now)
-        if acts(table.switching[kind], axis.switching[kind]):
-            correction += correct_by(kind, tables, pool, state, out, i, position)
+    for k in range(table.kinds):
+        kind = table.kind[k]
+        contribution = correct_by(kind, tables, pool, state, given, out, i, correction)
+        if kind < FRICTION:
+            correction += contribution
     out.volumetric_correction = axis.volumetric_correction
     correction += out.volumetric_correction
-
     out.correction = correction
     out.setpoint_shift = axis.shift.before.now + axis.shift.behind.now + axis.volumetric_shift
     out.stop_request = axis.stop_request
     out.corrected_setpoint = motion.setpoint + (correction + out.setpoint_shift)
-    out.display_position = inputs.axis[i].actual_position - (correction + out.setpoint_shift)
-    if acts(table.switching[FRICTION], axis.switching[FRICTION]):
-        correct_by(FRICTION, tables, pool, state, out, i, position)
+    out.display_position = given.actual_position - (correction + out.setpoint_shift)
     axis.started = True
 
 
-def acts(table: SwitchTable, state: SwitchState) -> bool:
-    """Tell whether a kind has a table, or had one whose values still run out."""
-    return table.configured or state.contribution != 0.0
+def correct_by(
+    kind: int, tables: Tables, pool: Vec, state: State, given: AxisInputs, out: AxisOutputs, i: int, correction: float
+) -> float:
+    """Return what a kind adds to axis i in this cycle, after ``correction``.
 
-
-def correct_by(kind: int, tables: Tables, pool: Vec, state: State, out: AxisOutputs, i: int, position: float) -> float:
-    """Return what a kind adds to axis i in this cycle; what NO_MOVE absorbs of it goes into the shift."""
+    What NO_MOVE absorbs of it goes into the shift. Without a table it adds what is left of the one it had.
+    """
     table = tables.axis[i]
     axis = state.axis[i]
+    switching = table.switching[kind]
     own = axis.switching[kind]
     value = 0.0
-    if table.switching[kind].configured:
+    if switching.configured:
+        position = state.motion.axis[i].setpoint
+        if has_inputs(kind):
+            lost = renew(kind, table.compensation, axis.compensation, given.compensation, position)
+            if axis.started:
+                blend_in(switching, own, own.weight * lost)
+        if kind == LEADSCREW:
+            position = position + (correction + axis.shift.before.now)
         value = compensation_value(
-            kind, pool, table.compensation, axis.compensation, state.motion, i, position, tables.cycle_time
+            kind,
+            pool,
+            table.compensation,
+            axis.compensation,
+            given.compensation,
+            state.motion,
+            i,
+            position,
+            tables.cycle_time,
         )
-    out.contribution[kind] = contribution_of(table.switching[kind], own, value)
-    out.active[kind] = own.step > 0
-    if kind < LEADSCREW:
-        absorb(axis.shift.before, own.absorbed * value)
-    elif kind < FRICTION:
-        absorb(axis.shift.behind, own.absorbed * value)
-    return out.contribution[kind]
+    contribution = contribution_of(switching, own, value)
+    if not axis.settled and kind < FRICTION:
+        absorb_switch(axis.shift, kind < LEADSCREW, own.absorbed * value)
+    out.contribution[kind] = contribution
+    return contribution

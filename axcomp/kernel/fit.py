@@ -35,6 +35,11 @@ def axis_fits(table: AxisTable, pool: Vec, axes: int, numbers: int) -> bool:
         return False
     if not (0 <= table.first <= numbers and 0 <= table.numbers <= numbers - table.first):
         return False
+    if not 0 <= table.kinds <= KINDS:
+        return False
+    for k in range(table.kinds):
+        if not 0 <= table.kind[k] < KINDS:
+            return False
     for kind in range(KINDS):
         if table.switching[kind].configured:
             if not switch_fits(table.switching[kind], axes):

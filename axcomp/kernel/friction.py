@@ -3,6 +3,7 @@
 I = scaling · sign(v) · F(|v|) · w_before · w_after, then delayed by delay_cycles. w_after builds the current up over
 position_delay after a reversal (the start counts as one), w_before takes it down over the last reversal_lookahead
 cycles before one: the cycle n cycles before the last one of the old direction has w_before = n/reversal_lookahead.
+What is to come is in the delay line, or given, or predicted.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
-from .motion import AxisMotion
+from .motion import AxisMotion, way_sign
 from .record import Vec, whole
 
 DELAY_LINE = 249  # delay_cycles < 249 (P-COMP-00058)
@@ -31,6 +32,14 @@ class FrictionTable:
 
 
 @dataclass(slots=True)
+class FrictionInputs:
+    """What is known of the motion to come."""
+
+    ahead_known: bool
+    velocity_ahead: Annotated[list[float], LOOKAHEAD_MAX]  # of the next cycles
+
+
+@dataclass(slots=True)
 class FrictionState:
     """What the friction compensation remembers."""
 
@@ -40,11 +49,12 @@ class FrictionState:
     built_up: bool  # the axis has gone position_delay since
     since_reversal: int  # cycles, at most lookahead
     head: int  # where the delay line is written next
+    predicted: bool  # a reversal has been predicted from velocity and acceleration, for want of velocities to come
     line: Annotated[list[float], DELAY_LINE]
 
 
 def friction_current(
-    pool: Vec, table: FrictionTable, state: FrictionState, motion: AxisMotion, cycle_time: float
+    pool: Vec, table: FrictionTable, state: FrictionState, given: FrictionInputs, motion: AxisMotion, cycle_time: float
 ) -> float:
     """Return the current of this cycle at full weight, and keep the delay line."""
     sign = motion.sign
@@ -61,7 +71,11 @@ def friction_current(
         current = table.scaling * sign * curve_value(pool, table.curve, abs(motion.velocity), state.lookup)
         current = current * build_up(table, state, motion.setpoint)
         if table.delay < table.lookahead:
-            current = current * decay_predicted(table, motion.velocity, motion.acceleration, cycle_time)
+            if given.ahead_known:
+                current = current * decay_known(table, given, sign, cycle_time)
+            else:
+                state.predicted = True
+                current = current * decay_predicted(table, motion.velocity, motion.acceleration, cycle_time)
     if state.since_reversal < table.lookahead:
         state.since_reversal += 1
     return delayed(table, state, current)
@@ -83,6 +97,14 @@ def decay_delayed(table: FrictionTable, state: FrictionState) -> None:
     for n in range(state.since_reversal):
         at = at - 1 if at > 0 else DELAY_LINE - 1
         state.line[at] = state.line[at] * n / table.lookahead
+
+
+def decay_known(table: FrictionTable, given: FrictionInputs, sign: int, cycle_time: float) -> float:
+    """Return w_before from the velocities to come: exact; an axis that only slows down is not weighted."""
+    for n in range(table.lookahead):
+        if way_sign(given.velocity_ahead[n] * cycle_time) == -sign:
+            return n / table.lookahead
+    return 1.0
 
 
 def decay_predicted(table: FrictionTable, velocity: float, acceleration: float, cycle_time: float) -> float:

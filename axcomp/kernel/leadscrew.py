@@ -52,6 +52,11 @@ def leadscrew_value(pool: Vec, table: LeadscrewTable, state: LeadscrewState, pos
     elif state.reversal_step < table.reversal_cycles:
         state.reversal_step += 1
 
+    return leadscrew_at(pool, table, state, position)
+
+
+def leadscrew_at(pool: Vec, table: LeadscrewTable, state: LeadscrewState, position: float) -> float:
+    """Return −Δ at a position where a reversal stands."""
     x = folded(table.argument, position)
     if not table.bilateral or state.reversal_step == table.reversal_cycles:
         return -curve_value(pool, table.positive, x, state.lookup)

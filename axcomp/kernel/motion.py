@@ -51,11 +51,7 @@ def move_axis(motion: AxisMotion, setpoint: float, velocity: float, cycle_time: 
     """Take over a setpoint and a velocity, and decide whether and which way the axis moves."""
     way = velocity * cycle_time
     change = nearest(setpoint - motion.counted, modulo_range)
-    motion.sign = 0
-    if way >= STANDSTILL:
-        motion.sign = 1
-    elif way <= -STANDSTILL:
-        motion.sign = -1
+    motion.sign = way_sign(way)
     motion.moving = motion.sign != 0 or is_motion(change)
     if motion.moving:
         motion.direction = motion.sign
@@ -64,6 +60,15 @@ def move_axis(motion: AxisMotion, setpoint: float, velocity: float, cycle_time: 
         motion.counted = setpoint
     motion.setpoint = setpoint
     motion.velocity = velocity
+
+
+def way_sign(way: float) -> int:
+    """Return the sign of the way of a cycle, 0 where it is no motion."""
+    if way >= STANDSTILL:
+        return 1
+    if way <= -STANDSTILL:
+        return -1
+    return 0
 
 
 def is_motion(change: float) -> bool:

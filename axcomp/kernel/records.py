@@ -28,6 +28,8 @@ class AxisTable:
     numbers: int
     modulo_range: float  # 0: no modulo axis
     shift_cycles: int  # over which a shift is released, at least 1
+    kinds: int  # that the axis activates, with or without a table
+    kind: Annotated[list[int], KINDS]  # their numbers, ascending
     switching: Annotated[list[SwitchTable], KINDS]
     compensation: CompensationTables
 
@@ -38,6 +40,8 @@ class AxisState:
 
     started: bool
     held: bool  # this cycle's inputs cannot be used
+    settled: bool  # no switch changes until a command, a reference or a release does
+    referenced: bool  # the input in the last cycle
     released: bool  # the input in the last cycle
     error: int  # stays until reset
     stop_request: bool  # stays until reset, or until a volumetric compensation is switched on again
@@ -106,6 +110,7 @@ class Inputs:
 
     reset: bool
     program_end: bool
+    derive_motion: bool  # velocities and accelerations are not given: they follow from the setpoints
     axis: Annotated[list[AxisInputs], AXES]
     tool_length: float  # mm
     volumetric: Annotated[list[VolumetricInputs], VOLUMETRICS]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .switching import ramp
+from .switching import mapped_step, ramp
 
 
 @dataclass(slots=True)
@@ -27,10 +27,11 @@ class ShiftState:
     before: Shift
     behind: Shift
     step: int  # of the release: shift_cycles … 0; 0: none is under way
+    pending: bool  # there is a shift
 
 
 def release_shift(cycles: int, state: ShiftState, moving: bool) -> None:
-    """Take the shift back over so many cycles, from the first motion on."""
+    """Take a shift back over so many cycles, from the first motion on."""
     if moving and state.step == 0 and (state.before.waiting != 0.0 or state.behind.waiting != 0.0):
         state.step = cycles
         begin_release(state.before)
@@ -40,6 +41,7 @@ def release_shift(cycles: int, state: ShiftState, moving: bool) -> None:
     weight = ramp(state.step, cycles)
     state.before.now = state.before.waiting + weight * state.before.released
     state.behind.now = state.behind.waiting + weight * state.behind.released
+    state.pending = state.step > 0 or state.before.waiting != 0.0 or state.behind.waiting != 0.0
 
 
 def begin_release(shift: Shift) -> None:
@@ -48,7 +50,27 @@ def begin_release(shift: Shift) -> None:
     shift.waiting = 0.0
 
 
+def absorb_switch(state: ShiftState, is_before: bool, gain: float) -> None:
+    """Take out of the output what a compensation gains by being switched; ``is_before``: it is before the leadscrew."""
+    if gain != 0.0:
+        state.pending = True
+        if is_before:
+            absorb(state.before, gain)
+        else:
+            absorb(state.behind, gain)
+
+
 def absorb(shift: Shift, gain: float) -> None:
-    """Take out of the output what a compensation gains by being switched."""
+    """Let a gain wait."""
     shift.waiting -= gain
     shift.now -= gain
+
+
+def adopt_shift(before: int, after: int, state: ShiftState) -> None:
+    """Go on with a release of another length from where it stands."""
+    if state.step > 0:
+        weight = ramp(state.step, before)
+        state.step = max(mapped_step(state.step, before, after), 1)
+        weight = weight / ramp(state.step, after)
+        state.before.released *= weight
+        state.behind.released *= weight

@@ -41,9 +41,7 @@ class SwitchState:
     step: int  # k of w(k)
     weight: float  # w(k), 0 … 1
     absorbed: float  # change of the weight that NO_MOVE takes out of the output, this cycle only
-    contribution: float  # what it adds
-    renewed: bool  # its values are others than in the last cycle
-    difference: float  # what it added before it was renewed, less what it adds now
+    difference: float  # what it added with its old values, less what it adds with the new ones, when those came
     blend_step: int  # of the transition to the new values: blend_cycles … 0
 
 
@@ -83,8 +81,8 @@ def heed_command(table: SwitchTable, state: SwitchState, enable: bool, released:
         state.no_move = no_move
 
 
-def advance_switch(table: SwitchTable, state: SwitchState, ready: bool, moving: bool) -> None:
-    """Advance the weight by one cycle.
+def advance_switch(table: SwitchTable, state: SwitchState, ready: bool, moving: bool) -> bool:
+    """Advance the weight by one cycle; True: it has settled until a command, a reference or a release changes it.
 
     ``ready``: the conditions hold (references); while they do not, the weight runs down and a command need not wait.
     ``moving``: the slave is in motion.
@@ -110,20 +108,24 @@ def advance_switch(table: SwitchTable, state: SwitchState, ready: bool, moving: 
             state.absorbed = weight - state.weight
         state.step = step
         state.weight = weight
+    end = table.cycles if state.granted and ready else 0
+    return step == end and state.command == state.granted and state.absorbed == 0.0
 
 
 def contribution_of(table: SwitchTable, state: SwitchState, value: float) -> float:
     """Return what a compensation adds in this cycle; ``value``: at full weight."""
     contribution = state.weight * value
-    if state.renewed:
-        state.renewed = False
-        state.difference = state.contribution - contribution
-        state.blend_step = table.blend_cycles
     if state.blend_step > 0:
         state.blend_step -= 1
         contribution += ramp(state.blend_step, table.blend_cycles) * state.difference
-    state.contribution = contribution
     return contribution
+
+
+def blend_in(table: SwitchTable, state: SwitchState, difference: float) -> None:
+    """Let new values come in softly; ``difference``: what it adds with the old ones, less that with the new ones."""
+    if difference != 0.0:
+        state.difference = ramp(state.blend_step, table.blend_cycles) * state.difference + difference
+        state.blend_step = table.blend_cycles
 
 
 def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) -> None:
@@ -131,19 +133,21 @@ def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) ->
     state.step = mapped_step(state.step, before.cycles, after.cycles)
     if not after.configured:
         state.step = 0
-    state.weight = ramp(state.step, after.cycles)
+    state.weight = ramp(state.step, after.cycles) if state.step > 0 else 0.0
     state.absorbed = 0.0
-    state.blend_step = 0
-    state.renewed = state.contribution != 0.0 or state.step > 0
+    if state.blend_step > 0:
+        rest = ramp(state.blend_step, before.blend_cycles) * state.difference
+        state.blend_step = max(mapped_step(state.blend_step, before.blend_cycles, after.blend_cycles), 1)
+        state.difference = rest / ramp(state.blend_step, after.blend_cycles)
 
 
 def mapped_step(step: int, before: int, after: int) -> int:
-    """Return the step of a transition of another length that is as far: off stays off, on stays on."""
+    """Return the step of a transition of another length that is nearest to as far."""
     if step <= 0 or before <= 0:
         return 0
     if step >= before:
         return after
-    return min(max((2 * step * after + before) // (2 * before), 1), after)
+    return (2 * step * after + before) // (2 * before)
 
 
 def switch_fits(table: SwitchTable, axes: int) -> bool:

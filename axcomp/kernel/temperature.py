@@ -39,15 +39,18 @@ def temperature_value(table: TemperatureTable, state: TemperatureState, position
     return state.offset + state.coefficient * (position - table.position)
 
 
-def take_temperature(state: TemperatureState, given: TemperatureInputs) -> bool:
-    """Take over offset and coefficient where they are finite; True: they have changed."""
+def take_temperature(
+    table: TemperatureTable, state: TemperatureState, given: TemperatureInputs, position: float
+) -> float:
+    """Take over offset and coefficient if they are finite; return how much less is added with them at a position."""
     if given.offset == state.offset and given.coefficient == state.coefficient:
-        return False
+        return 0.0
     if given.offset - given.offset != 0.0 or given.coefficient - given.coefficient != 0.0:
-        return False
+        return 0.0
+    before = temperature_value(table, state, position)
     state.offset = given.offset
     state.coefficient = given.coefficient
-    return True
+    return before - temperature_value(table, state, position)
 
 
 def begin_temperature(table: TemperatureTable, given: TemperatureInputs) -> None:

@@ -3,7 +3,7 @@
 from .backlash import Backlash
 from .compiling import CompileError
 from .cross import Cross
-from .crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from .crosstalk_data import Crosstalk, CrosstalkCurve, CrosstalkTest
 from .friction import Friction
 from .kind import KIND_NAMES, Kind, KindInput
 from .leadscrew import Leadscrew

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 from ..kernel.cycle import LARGEST
@@ -11,7 +11,7 @@ from ..model.curve import Curve
 from ..model.machine import Axis, Compensation, Machine
 from ..model.quantity import Quantity, symbol
 from .compiling import AxisCompiler
-from .kind import EntryWriter, Kind, Reference, TableReader
+from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
 from .parameter import BELOW_MAX, DataType, Parameter, Severity, activation, both
 from .parameter import Quantity as ListQuantity
 from .shown import SPEED, Table
@@ -58,6 +58,19 @@ class Friction(Compensation, kind="friction"):
 
     def __repr__(self) -> str:
         return f"Friction({len(self.velocities)} points {span(self.velocities, '/s')}, {self.scaling:g} ×)"
+
+
+def _needs_ahead(cycles: int) -> Callable[[Friction | None], bool]:
+    """Return what tells whether a compensation needs so many velocities to come: the delay line does not hold them."""
+
+    def needs(friction: Friction | None) -> bool:
+        return (
+            friction is not None
+            and friction.reversal_lookahead > friction.delay_cycles
+            and (friction.reversal_lookahead >= cycles)
+        )
+
+    return needs
 
 
 class FrictionKind(Kind[Friction]):
@@ -134,6 +147,21 @@ class FrictionKind(Kind[Friction]):
             Parameter(CURRENT, "Current", DataType.SGN32, 0, both("00047"), ListQuantity.CURRENT, "(MIN, MAX)"),
         )
     )
+    inputs = (
+        KindInput(48, "ahead_known", "ahead_known", "velocity_ahead is given", boolean=True, present=_needs_ahead(1)),
+        *(
+            KindInput(
+                48 + n,
+                f"velocity_ahead[{n}]",
+                f"velocity_ahead[{n - 1}]",
+                f"Setpoint velocity {n} cycle{'s' if n > 1 else ''} later, where ahead_known",
+                "{}/s",
+                present=_needs_ahead(n),
+            )
+            for n in range(1, LOOKAHEAD_MAX + 1)
+        ),
+    )
+    notice = "its friction compensation predicts reversals: nothing gives it velocity_ahead, as its look-ahead needs"
     columns = (VELOCITY, CURRENT)
     sizes = (_COUNT,)
     reserves = _MAX_POINTS
@@ -144,6 +172,8 @@ class FrictionKind(Kind[Friction]):
             Severity.INFO,
             "Friction compensation: a table is there, but the axis does not activate it (P-AXIS-00522)",
         ),
+        "AXC-SCALING": (Severity.WARNING, "The scaling of a friction table is 0 or negative"),
+        "AXC-LOOKAHEAD": (Severity.WARNING, "The current before a reversal needs velocities that are not known yet"),
         "110591": (Severity.ERROR, "Friction compensation: velocities are negative or not ascending"),
         "110641": (Severity.ERROR, "Friction compensation: max_points was changed by an update"),
     }
@@ -166,6 +196,15 @@ class FrictionKind(Kind[Friction]):
             message = f"A velocity of the table is negative: {velocities[0]:g}; the compensation stays off."
             source.note("110591", VELOCITY, message, 0)
             return None
+        if not values.converted(_SCALING) > 0.0:
+            message = f"{_SCALING} = {values.number(_SCALING)} does not add what friction takes away; it is used."
+            source.note("AXC-SCALING", _SCALING, message)
+        if values.integer(_LOOKAHEAD) > values.integer(_DELAY):
+            message = (
+                f"{_LOOKAHEAD} is larger than {_DELAY}: the current before a reversal depends on velocities to come, "
+                "which a host must give as velocity_ahead."
+            )
+            source.note("AXC-LOOKAHEAD", _LOOKAHEAD, message)
         return Friction(
             velocities=tuple(velocities),
             currents=tuple(currents),
@@ -225,8 +264,9 @@ class FrictionKind(Kind[Friction]):
         return ()
 
     def looks_up(self, compensation: Friction, axis: Axis) -> Iterable[Reference]:
-        """Return the motion of the axis."""
-        return tuple((axis.number, name) for name in ("setpoint", "velocity", "acceleration"))
+        """Return the motion of the axis, and what is known of the motion to come."""
+        own = [one.name for one in self.inputs if one.present(compensation)]
+        return tuple((axis.number, name) for name in ("setpoint", "velocity", "acceleration", *own))
 
 
 KIND = FrictionKind()

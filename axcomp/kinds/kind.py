@@ -7,7 +7,7 @@ and compiled, and what it depends on. The kernel has a module of the same name w
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
@@ -113,24 +113,36 @@ class EntryWriter(Protocol):
 
 @dataclass(frozen=True)
 class KindInput:
-    """An input of the FMU that only one kind has; it starts as the list says.
+    """An input of the FMU that only one kind has.
 
     Attributes
     ----------
+    identifier : int
+        In the block of value references of its axis.
     name : str
-        Behind the kind's: ``temperature.offset``; the field of the kind's record of inputs too.
-    field : str
-        Of the compensation, whose value it starts with.
-    unit : str
-        ``{}`` stands for mm or deg.
+        Behind the axis': ``temperature.offset``.
+    path : str
+        Of its field in the kernel's record of the kind's inputs.
     description : str
         One sentence without a full stop.
+    unit : str
+        ``{}`` stands for mm or deg.
+    field : str
+        Of the compensation, whose value it starts with; "": it starts with 0 or false.
+    boolean : bool
+        It is a Boolean.
+    present : callable
+        Tells whether a compensation has it; None stands for a kind that is activated without a table.
     """
 
+    identifier: int
     name: str
-    field: str
-    unit: str
+    path: str
     description: str
+    unit: str = ""
+    field: str = ""
+    boolean: bool = False
+    present: Callable[[Any], bool] = lambda _: True
 
 
 class Kind(ABC, Generic[C]):
@@ -145,8 +157,7 @@ class Kind(ABC, Generic[C]):
     word : str
         In NC commands: ``X[COMP ON CROSS]``.
     identifier : int
-        First of the identifiers of its variables in a block of value references: enable, active, correction, and those
-        of its own inputs.
+        First of the identifiers of its variables in a block of value references: enable, active, correction.
     adds_to : str
         ``setpoint``, or ``current`` of the motor.
     activator : Parameter
@@ -172,7 +183,7 @@ class Kind(ABC, Generic[C]):
     inactive_code, no_table_code : str
         Of the findings about a table that nothing activates, and about an activated kind without a table.
     notice : str
-        What the user should know when the kernel says that its table has been left.
+        What the user should know once the kernel says so (``has_notice``).
     """
 
     name: ClassVar[str]

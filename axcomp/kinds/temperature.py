@@ -83,8 +83,14 @@ class TemperatureKind(Kind[Temperature]):
         ),
     )
     inputs = (
-        KindInput("offset", "offset", "{}", "Offset of the temperature compensation"),
-        KindInput("coefficient", "coefficient", "", "Growth by temperature, mm per mm or deg per deg"),
+        KindInput(39, "temperature.offset", "offset", "Offset of the temperature compensation", "{}", field="offset"),
+        KindInput(
+            40,
+            "temperature.coefficient",
+            "coefficient",
+            "Growth by temperature, mm per mm or deg per deg",
+            field="coefficient",
+        ),
     )
     codes = {"AXC-GRADIENT": (Severity.WARNING, "A growth by temperature that no machine has: it is in another unit")}
 

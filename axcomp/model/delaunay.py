@@ -1,22 +1,27 @@
 """Delaunay triangles of a few points in the plane, in exact arithmetic on coordinates rounded to 1 pm.
 
 At most 15 acceleration tests (P-COMP-00083) need them, so every triple of points is looked at: a triangle belongs to
-the triangulation if its circumcircle holds no other point. Points on one circle allow several triangulations; the
-first triangles that do not overlap are taken. A triangle so flat that interpolation over it would be rounding (three
+the triangulation if its circumcircle holds no other point. Points on one circle allow several triangulations: what
+stands at the points decides. A triangle so flat that interpolation over it would be rounding (three
 points that are meant to be in a line) is left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from itertools import combinations
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 UNITS = 1e9
 """Whole coordinates per mm or °: points in a line of the lists' 0.1 µm are so in the rounded coordinates too."""
 
 FLAT = 10**8
 """A triangle whose longest side is more than this many times its height is left out."""
+
+
+Side = tuple[int, int]
+"""Numbers of two points that are joined, the smaller one first."""
 
 
 class Point(NamedTuple):
@@ -33,19 +38,62 @@ class Triangulation(NamedTuple):
     edges: list[tuple[int, int]]
 
 
-def triangulate(x: Sequence[float], y: Sequence[float]) -> Triangulation:
-    """Return the Delaunay triangulation of the points (x[i], y[i]); empty where all points are in a line."""
+def triangulate(x: Sequence[float], y: Sequence[float], values: Sequence[Sequence[float]] = ()) -> Triangulation:
+    """Return the Delaunay triangulation of some points; empty where all of them are in a line.
+
+    Parameters
+    ----------
+    x, y : sequence of float, shape (n,)
+        Coordinates, mm or °; their order makes no difference.
+    values : sequence of sequence of float, shape (n, any)
+        What stands at the points: of points on one circle those are joined that differ least (semantics §8), and of
+        points that differ as little those whose coordinates are smaller.
+    """
     points = _whole_points(x, y)
-    triangles: list[tuple[int, int, int]] = []
+    candidates = []
     for a, b, c in combinations(range(len(points)), 3):
         turn = _turn(points[a], points[b], points[c])
-        if abs(turn) * FLAT <= _longest_side_squared(points[a], points[b], points[c]):
-            continue
-        triangle = (a, b, c) if turn > 0 else (a, c, b)
-        if _circle_is_empty(points, triangle) and not any(_overlap(points, triangle, other) for other in triangles):
-            triangles.append(triangle)
+        if abs(turn) * FLAT > _longest_side_squared(points[a], points[b], points[c]):
+            triangle = (a, b, c) if turn > 0 else (a, c, b)
+            if _circle_is_empty(points, triangle):
+                candidates.append(triangle)
+    joined: list[Side] = []
+    for side in sorted({frozenset(pair) for t in candidates for pair in combinations(t, 2)}, key=_rank(points, values)):
+        a, b = sorted(side)
+        if not any(_cross(points, (a, b), other) for other in joined):
+            joined.append((a, b))
+    triangles = [t for t in candidates if all(tuple(sorted(pair)) in joined for pair in combinations(t, 2))]
     sides = [(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)]
     return Triangulation(triangles, [(a, b) for a, b in sides if (b, a) not in sides])
+
+
+def width(x: Sequence[float], y: Sequence[float]) -> float:
+    """Return the width of the narrowest strip along two of the points that holds all of them."""
+    narrowest = math.inf
+    for (ax, ay), (bx, by) in combinations(set(zip(x, y, strict=True)), 2):
+        length = math.hypot(bx - ax, by - ay)
+        far = max(abs((bx - ax) * (v - ay) - (by - ay) * (u - ax)) for u, v in zip(x, y, strict=True))
+        narrowest = min(narrowest, far / length)
+    return narrowest if math.isfinite(narrowest) else 0.0
+
+
+def _rank(points: Sequence[Point], values: Sequence[Sequence[float]]) -> Callable[[frozenset[int]], tuple[Any, ...]]:
+    """Return the key by which sides are joined: by the difference of the values, then by coordinates."""
+
+    def rank(side: frozenset[int]) -> tuple[Any, ...]:
+        a, b = side
+        different = sum(abs(u - v) for u, v in zip(values[a], values[b], strict=True)) if values else 0.0
+        return different, sorted((points[a], points[b]))
+
+    return rank
+
+
+def _cross(points: Sequence[Point], one: Side, other: Side) -> bool:
+    """Tell whether two sides meet between their ends."""
+    if set(one) & set(other):
+        return False
+    (a, b), (c, d) = ((points[i], points[j]) for i, j in (one, other))
+    return _turn(a, b, c) * _turn(a, b, d) < 0 and _turn(c, d, a) * _turn(c, d, b) < 0
 
 
 def _whole_points(x: Sequence[float], y: Sequence[float]) -> list[Point]:
@@ -75,14 +123,4 @@ def _circle_is_empty(points: Sequence[Point], triangle: tuple[int, int, int]) ->
         )
         if determinant > 0:
             return False
-    return True
-
-
-def _overlap(points: Sequence[Point], one: tuple[int, int, int], other: tuple[int, int, int]) -> bool:
-    """Whether two counterclockwise triangles share inner points: no side of either separates them."""
-    for t, u in ((one, other), (other, one)):
-        for k in range(3):
-            a, b = points[t[k]], points[t[(k + 1) % 3]]
-            if all(_turn(a, b, points[i]) <= 0 for i in u):
-                return False
     return True

@@ -75,6 +75,8 @@ class Scatter:
         One for each place.
     over, of, label, note
         As those of ``Grid``.
+    deciding : tuple of tuple of float
+        Values by which places on one circle are joined (see ``triangulate``); empty: by its own.
 
     Raises
     ------
@@ -89,6 +91,7 @@ class Scatter:
     label: str = ""
     note: str = ""
     entry: str = ""
+    deciding: tuple[tuple[float, ...], ...] = ()
 
     def __repr__(self) -> str:
         return f"Scatter({self.of} over {self.over[0]} and {self.over[1]}, {len(self.places)} places)"
@@ -103,7 +106,8 @@ class Scatter:
 
     @cached_property
     def _triangulation(self) -> Triangulation:
-        found = triangulate([x for x, _ in self.places], [y for _, y in self.places])
+        deciding = self.deciding or [(value,) for value in self.values]
+        found = triangulate([x for x, _ in self.places], [y for _, y in self.places], deciding)
         if not found.triangles:
             raise ValueError("there are no three places that are not in a line")
         return found

@@ -38,7 +38,7 @@ TABLES = {
 """Table of places → block of value references that it describes (the first of its kind)."""
 
 NO_PLACE = "{0, 0, 0}"
-_KIND = re.compile(r"\[(\d+)\]")
+_KIND = re.compile(r"^(enable|active|contribution)\[(\d+)\]")
 
 
 def layout() -> int:
@@ -89,11 +89,16 @@ def _places() -> Iterator[tuple[int, str]]:
             yield BLOCK * block + declared.identifier, f"{{'{kind}', '{causality}', {place}}}"
 
 
+def _by_name(found: re.Match[str]) -> str:
+    """Return an element of an array over kinds with the kind's name as its index."""
+    return f"{found[1]}[{KIND_NAMES[int(found[2])].upper()}]"
+
+
 def _member(block: int, declared: Declaration) -> str:
     """Return the structure that a variable lies in, and its member there, as C names them."""
     direction = "Outputs" if declared.causality == "output" else "Inputs"
     if block == AXIS_BLOCK:
-        return f"Axis{direction}, {_KIND.sub(lambda found: f'[{KIND_NAMES[int(found[1])].upper()}]', declared.field)}"
+        return f"Axis{direction}, {_KIND.sub(_by_name, declared.field)}"
     if block == VOLUMETRIC_BLOCK:
         return f"Volumetric{direction}, {declared.field}"
     record = (
@@ -104,11 +109,14 @@ def _member(block: int, declared: Declaration) -> str:
 
 def _layout_of(cls: Any) -> list[str]:
     structure = ctypes_of(cls)
-    lines = [f"{cls.__name__} {ctypes.sizeof(structure)}"]
+    return [f"{cls.__name__} {ctypes.sizeof(structure)}", *_fields_of(structure)]
+
+
+def _fields_of(structure: Any) -> Iterator[str]:
+    """Yield the fields of a structure, and those of the structures in it, with their types and places."""
     for name, kind, *_ in structure._fields_:
         place = getattr(structure, name)
-        lines.append(f"{name} {kind.__name__} {place.offset} {place.size}")
+        yield f"{name} {kind.__name__} {place.offset} {place.size}"
         inner = getattr(kind, "_type_", kind)
         if isinstance(inner, type) and issubclass(inner, ctypes.Structure):
-            lines += [f"  {field[0]} {getattr(inner, field[0]).offset}" for field in inner._fields_]
-    return lines
+            yield from _fields_of(inner)

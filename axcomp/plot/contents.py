@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kinds import Tables, tables_of
 from ..kinds.shown import SPEED
-from ..kinds.tables import Tables, tables_of
 from ..model.curve import Curve
 from ..model.grid import Grid, Scatter
 from ..model.machine import Machine

@@ -75,6 +75,8 @@ def _compile_axis(axis: Axis, compiler: AxisCompiler, table: AxisTable) -> None:
         switching = table.switching[kind.number]
         switching.points_error = kind.points_error
         switching.reserved = reserved.get(kind.name, 1)
+        table.kind[table.kinds] = kind.number
+        table.kinds += 1
     for compensation in axis.compensations:
         _compile_switching(compensation, compiler, table)
         kind_of(compensation).compile(compensation, compiler)

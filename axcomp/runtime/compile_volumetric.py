@@ -15,7 +15,8 @@ from ..kernel.volumetric_records import (
     ErrorBlock,
     VolumetricTable,
 )
-from ..kinds.compiling import CompileError, append
+from ..kinds import CompileError
+from ..kinds.compiling import append
 from ..model.machine import Machine
 from ..model.volumetric import (
     COMPENSATIONS_MAX,

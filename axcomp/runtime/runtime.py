@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..kernel.adopt import adopt_axis, adopt_volumetrics, keep_declared, update_error
-from ..kernel.compensations import has_left_table
+from ..kernel.compensations import has_notice
 from ..kernel.cycle import cycle
 from ..kernel.initial import set_initial_inputs
 from ..kernel.record import zero
@@ -119,7 +119,7 @@ class Runtime:
         for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
             for kind in kinds_of(axis):
                 notice = f"axis {axis.name}: {kind.notice}"
-                if has_left_table(kind.number, state.compensation) and notice not in self._told:
+                if has_notice(kind.number, state.compensation) and notice not in self._told:
                     self._told.add(notice)
                     yield notice
 
@@ -157,12 +157,12 @@ class Runtime:
             machine = replace(machine, axes=tuple(old if error else new for old, new, error in pairs))
             after, pool = compile_tables(machine, before.cycle_time)
         for index, error in enumerate(errors):
-            state = self.state.axis[index]
+            old, new = before.axis[index], after.axis[index]
             if error == 0:
-                adopt_axis(before.axis[index], after.axis[index], state, self.inputs.axis[index])
+                adopt_axis(old, self.pool, new, pool, self.state, self.inputs.axis[index], index)
             else:
-                keep_declared(before.axis[index], after.axis[index])
-            state.error = self.outputs.axis[index].error = error
+                keep_declared(old, new)
+            self.state.axis[index].error = self.outputs.axis[index].error = error
         adopt_volumetrics(before, after, self.state, self.outputs)
         self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import ast
 import sys
 from pathlib import Path
 
-from ..kernel import EXPORTS
 from .emit import translate
 from .subset import TranslationError
 
@@ -24,8 +24,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--output", type=Path, default=_PACKAGE.parent / "fmu_src" / "native", help="folder for the C")
     parser.add_argument("--check", action="store_true", help="write nothing, but fail if the C is out of date")
     options = parser.parse_args(arguments)
+    exports = _exports_of(options.kernel)
+    if not exports:
+        print(f"{_shortest(options.kernel)}/__init__.py names no EXPORTS: nothing to translate for", file=sys.stderr)
+        return 1
     try:
-        translation = translate(_shortest(options.kernel), EXPORTS)
+        translation = translate(_shortest(options.kernel), exports)
     except TranslationError as error:
         print(error, file=sys.stderr)
         return 1
@@ -45,6 +49,14 @@ def main(arguments: list[str] | None = None) -> int:
         path.write_text(text, encoding="utf-8", newline="\n")
         print(f"wrote {_shortest(path)}")
     return 0
+
+
+def _exports_of(kernel: Path) -> tuple[str, ...]:
+    """Return what the package names as EXPORTS: the functions that C calls."""
+    for node in ast.parse((kernel / "__init__.py").read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "EXPORTS":
+            return tuple(ast.literal_eval(node.value))
+    return ()
 
 
 def _shortest(path: Path) -> Path:

@@ -212,8 +212,8 @@ static void take_update(Instance *instance)
             int32_t error = memory->refused ? ERROR_UPDATE : after->errors[i];
             memory->state.axis[i].error = memory->outputs.axis[i].error = error;
             if (error == 0) {
-                axcomp_adopt_axis(&before->tables.axis[i], &after->tables.axis[i], &memory->state.axis[i],
-                                  &memory->inputs.axis[i]);
+                axcomp_adopt_axis(&before->tables.axis[i], before->pool, &after->tables.axis[i], after->pool,
+                                  &memory->state, &memory->inputs.axis[i], i);
             }
         }
     }
@@ -241,7 +241,7 @@ static void give_notices(Instance *instance)
     for (int i = 0; i < instance->lists->tables.axis_count; i++) {
         for (int kind = 0; kind < KINDS; kind++) {
             bool told = (instance->told[kind] >> i & 1u) != 0;
-            if (!told && axcomp_has_left_table(kind, &instance->memory.state.axis[i].compensation)) {
+            if (!told && axcomp_has_notice(kind, &instance->memory.state.axis[i].compensation)) {
                 instance->told[kind] |= 1u << i;
                 axcomp_say(instance, fmi2Warning, "axis %d: %s", instance->lists->tables.axis[i].number,
                            axcomp_notices[kind]);

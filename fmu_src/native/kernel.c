@@ -139,12 +139,12 @@ static void heed_command(const SwitchTable *table, SwitchState *state, bool enab
     }
 }
 
-/* Advance the weight by one cycle.
+/* Advance the weight by one cycle; true: it has settled until a command, a reference or a release changes it.
  *
  * `ready`: the conditions hold (references); while they do not, the weight runs down and a command need not wait.
  * `moving`: the slave is in motion.
  */
-static void advance_switch(const SwitchTable *table, SwitchState *state, bool ready, bool moving)
+static bool advance_switch(const SwitchTable *table, SwitchState *state, bool ready, bool moving)
 {
     bool switched = false;
     if (state->command != state->granted && !(moving && ready && table->at_standstill)) {
@@ -172,26 +172,31 @@ static void advance_switch(const SwitchTable *table, SwitchState *state, bool re
         state->step = step;
         state->weight = weight;
     }
+    int32_t end = state->granted && ready ? table->cycles : 0;
+    return step == end && state->command == state->granted && state->absorbed == 0.0;
 }
 
 /* Return what a compensation adds in this cycle; `value`: at full weight. */
 static double contribution_of(const SwitchTable *table, SwitchState *state, double value)
 {
     double contribution = state->weight * value;
-    if (state->renewed) {
-        state->renewed = false;
-        state->difference = state->contribution - contribution;
-        state->blend_step = table->blend_cycles;
-    }
     if (state->blend_step > 0) {
         state->blend_step -= 1;
         contribution += ramp(state->blend_step, table->blend_cycles) * state->difference;
     }
-    state->contribution = contribution;
     return contribution;
 }
 
-/* Return the step of a transition of another length that is as far: off stays off, on stays on. */
+/* Let new values come in softly; `difference`: what it adds with the old ones, less that with the new ones. */
+static void blend_in(const SwitchTable *table, SwitchState *state, double difference)
+{
+    if (difference != 0.0) {
+        state->difference = ramp(state->blend_step, table->blend_cycles) * state->difference + difference;
+        state->blend_step = table->blend_cycles;
+    }
+}
+
+/* Return the step of a transition of another length that is nearest to as far. */
 static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
 {
     if (step <= 0 || before <= 0) {
@@ -200,7 +205,7 @@ static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
     if (step >= before) {
         return after;
     }
-    return int_min(int_max(int_floor_div(2 * step * after + before, 2 * before), 1), after);
+    return int_floor_div(2 * step * after + before, 2 * before);
 }
 
 /* Keep a switch where it stands between off and on: its step becomes the one of about the same weight. */
@@ -210,10 +215,13 @@ static void adopt_switch(const SwitchTable *before, const SwitchTable *after, Sw
     if (!after->configured) {
         state->step = 0;
     }
-    state->weight = ramp(state->step, after->cycles);
+    state->weight = state->step > 0 ? ramp(state->step, after->cycles) : 0.0;
     state->absorbed = 0.0;
-    state->blend_step = 0;
-    state->renewed = state->contribution != 0.0 || state->step > 0;
+    if (state->blend_step > 0) {
+        double rest = ramp(state->blend_step, before->blend_cycles) * state->difference;
+        state->blend_step = int_max(mapped_step(state->blend_step, before->blend_cycles, after->blend_cycles), 1);
+        state->difference = rest / ramp(state->blend_step, after->blend_cycles);
+    }
 }
 
 /* Tell whether a switch has transitions of a possible length and needs axes that are there. */
@@ -243,6 +251,12 @@ static bool switch_fits(const SwitchTable *table, int32_t axes)
  * lr_param.n_backlash_cyc cycles; turning again midway turns round where it is.
  */
 
+/* Return the correction where a reversal stands. */
+static double backlash_at(const BacklashTable *table, const BacklashState *state)
+{
+    return table->amount * ramp(state->step, table->reversal_cycles);
+}
+
 /* Return the correction at full weight; `direction`: of the axis' last motion, 0 before any. */
 static double backlash_value(const BacklashTable *table, BacklashState *state, int32_t direction)
 {
@@ -253,7 +267,7 @@ static double backlash_value(const BacklashTable *table, BacklashState *state, i
     } else if (state->step > 0) {
         state->step -= 1;
     }
-    return table->amount * ramp(state->step, table->reversal_cycles);
+    return backlash_at(table, state);
 }
 
 /* Go on with other lists; a reversal that is under way stays as far as it is. */
@@ -270,18 +284,27 @@ static bool backlash_fits(const BacklashTable *table)
 
 /* ============================== interpolation ===============================
  *
- * Piecewise linear curves: the last interval is tried first, then bisection: 10 000 points cost what 10 cost.
+ * Piecewise linear curves: the last interval and its neighbours first, then bisection: many points cost what few do.
  */
 
-/* Return i with x[i] ≤ x < x[i + 1], for x within the abscissae pool[first …] and points ≥ 2. */
-static int32_t find_interval(const double *pool, int32_t first, int32_t points, double x, Lookup *lookup)
+/* Return the interval of x, which is not the `last` one: its neighbours first, then bisection. */
+static int32_t search_interval(const double *pool, int32_t first, int32_t points, double x, int32_t last)
 {
-    int32_t i = lookup->interval;
-    if (pool[first + i] <= x && x < pool[first + i + 1]) {
-        return i;
-    }
     int32_t low = 0;
     int32_t high = points - 1;
+    if (x < pool[first + last]) {
+        high = last;
+        if (pool[first + last - 1] <= x) {
+            return last - 1;
+        }
+    } else if (last + 2 < points) {
+        low = last + 1;
+        if (x < pool[first + last + 2]) {
+            return last + 1;
+        }
+    } else {
+        return last;
+    }
     while (high - low > 1) {
         int32_t middle = (low + high) >> 1;
         if (x < pool[first + middle]) {
@@ -290,13 +313,35 @@ static int32_t find_interval(const double *pool, int32_t first, int32_t points, 
             low = middle;
         }
     }
-    lookup->interval = low;
     return low;
+}
+
+/* Return i with x[i] ≤ x < x[i + 1], for x within the abscissae pool[first …] and points ≥ 2. */
+static int32_t find_interval(const double *pool, int32_t first, int32_t points, double x, Lookup *lookup)
+{
+    int32_t i = lookup->interval;
+    if (pool[first + i] <= x && x < pool[first + i + 1]) {
+        return i;
+    }
+    lookup->interval = search_interval(pool, first, points, x, i);
+    return lookup->interval;
+}
+
+/* Return y(x) on the straight line through points i and i + 1. */
+static double section_value(const double *pool, const Curve *curve, int32_t i, double x)
+{
+    double x0 = pool[curve->x + i];
+    double y0 = pool[curve->y + i];
+    return y0 + (x - x0) / (pool[curve->x + i + 1] - x0) * (pool[curve->y + i + 1] - y0);
 }
 
 /* Return y(x): linear between the points, the end values held outside. */
 static double curve_value(const double *pool, const Curve *curve, double x, Lookup *lookup)
 {
+    int32_t i = lookup->interval;
+    if (i + 1 < curve->points && pool[curve->x + i] < x && x < pool[curve->x + i + 1]) {
+        return section_value(pool, curve, i, x);
+    }
     if (x <= pool[curve->x]) {
         return pool[curve->y];
     }
@@ -304,10 +349,8 @@ static double curve_value(const double *pool, const Curve *curve, double x, Look
     if (x >= pool[curve->x + last]) {
         return pool[curve->y + last];
     }
-    int32_t i = find_interval(pool, curve->x, curve->points, x, lookup);
-    double x0 = pool[curve->x + i];
-    double y0 = pool[curve->y + i];
-    return y0 + (x - x0) / (pool[curve->x + i + 1] - x0) * (pool[curve->y + i + 1] - y0);
+    i = find_interval(pool, curve->x, curve->points, x, lookup);
+    return section_value(pool, curve, i, x);
 }
 
 /* Return x moved by whole lengths into [start, start + length). */
@@ -373,6 +416,18 @@ static void forget(Lookup *lookup)
  * rounding leaves behind is no motion (semantics §4).
  */
 
+/* Return the sign of the way of a cycle, 0 where it is no motion. */
+static int32_t way_sign(double way)
+{
+    if (way >= STANDSTILL) {
+        return 1;
+    }
+    if (way <= -STANDSTILL) {
+        return -1;
+    }
+    return 0;
+}
+
 /* Tell whether a change of position is more than rounding. */
 static bool is_motion(double change)
 {
@@ -384,12 +439,7 @@ static void move_axis(AxisMotion *motion, double setpoint, double velocity, doub
 {
     double way = velocity * cycle_time;
     double change = nearest(setpoint - motion->counted, modulo_range);
-    motion->sign = 0;
-    if (way >= STANDSTILL) {
-        motion->sign = 1;
-    } else if (way <= -STANDSTILL) {
-        motion->sign = -1;
-    }
+    motion->sign = way_sign(way);
     motion->moving = motion->sign != 0 || is_motion(change);
     if (motion->moving) {
         motion->direction = motion->sign;
@@ -687,6 +737,7 @@ static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int3
  * I = scaling · sign(v) · F(|v|) · w_before · w_after, then delayed by delay_cycles. w_after builds the current up over
  * position_delay after a reversal (the start counts as one), w_before takes it down over the last reversal_lookahead
  * cycles before one: the cycle n cycles before the last one of the old direction has w_before = n/reversal_lookahead.
+ * What is to come is in the delay line, or given, or predicted.
  */
 
 /* Return w_after = min(1, |s − s_reversal| / position_delay); once 1 it stays until the next reversal. */
@@ -710,6 +761,17 @@ static void decay_delayed(const FrictionTable *table, FrictionState *state)
         at = at > 0 ? at - 1 : DELAY_LINE - 1;
         state->line[at] = state->line[at] * n / table->lookahead;
     }
+}
+
+/* Return w_before from the velocities to come: exact; an axis that only slows down is not weighted. */
+static double decay_known(const FrictionTable *table, const FrictionInputs *given, int32_t sign, double cycle_time)
+{
+    for (int32_t n = 0; n < table->lookahead; n++) {
+        if (way_sign(given->velocity_ahead[n] * cycle_time) == -sign) {
+            return (double)n / table->lookahead;
+        }
+    }
+    return 1.0;
 }
 
 /* Return w_before when velocity and acceleration stay as they are: the velocity crosses 0 after t = −v/a. */
@@ -739,7 +801,7 @@ static double delayed(const FrictionTable *table, FrictionState *state, double c
 
 /* Return the current of this cycle at full weight, and keep the delay line. */
 static double friction_current(const double *pool, const FrictionTable *table, FrictionState *state,
-        const AxisMotion *motion, double cycle_time)
+        const FrictionInputs *given, const AxisMotion *motion, double cycle_time)
 {
     int32_t sign = motion->sign;
     if (sign != 0 && sign != state->direction) {
@@ -757,7 +819,12 @@ static double friction_current(const double *pool, const FrictionTable *table, F
         current = table->scaling * sign * curve_value(pool, &table->curve, fabs(motion->velocity), &state->lookup);
         current = current * build_up(table, state, motion->setpoint);
         if (table->delay < table->lookahead) {
-            current = current * decay_predicted(table, motion->velocity, motion->acceleration, cycle_time);
+            if (given->ahead_known) {
+                current = current * decay_known(table, given, sign, cycle_time);
+            } else {
+                state->predicted = true;
+                current = current * decay_predicted(table, motion->velocity, motion->acceleration, cycle_time);
+            }
         }
     }
     if (state->since_reversal < table->lookahead) {
@@ -797,6 +864,21 @@ static bool friction_fits(const double *pool, const FrictionTable *table, int32_
  * cycles of lr_param.n_backlash_cyc; turning again midway turns round where it is.
  */
 
+/* Return −Δ at a position where a reversal stands. */
+static double leadscrew_at(const double *pool, const LeadscrewTable *table, LeadscrewState *state, double position)
+{
+    double x = folded(&table->argument, position);
+    if (!table->bilateral || state->reversal_step == table->reversal_cycles) {
+        return -curve_value(pool, &table->positive, x, &state->lookup);
+    }
+    if (state->reversal_step == 0) {
+        return -curve_value(pool, &table->negative, x, &state->lookup);
+    }
+    double positive = curve_value(pool, &table->positive, x, &state->lookup);
+    double negative = curve_value(pool, &table->negative, x, &state->lookup);
+    return -(negative + ramp(state->reversal_step, table->reversal_cycles) * (positive - negative));
+}
+
 /* Set the state before the first cycle: before any motion the positive direction counts. */
 static void begin_leadscrew(const LeadscrewTable *table, LeadscrewState *state, double position)
 {
@@ -825,16 +907,7 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
         state->reversal_step += 1;
     }
 
-    double x = folded(&table->argument, position);
-    if (!table->bilateral || state->reversal_step == table->reversal_cycles) {
-        return -curve_value(pool, &table->positive, x, &state->lookup);
-    }
-    if (state->reversal_step == 0) {
-        return -curve_value(pool, &table->negative, x, &state->lookup);
-    }
-    double positive = curve_value(pool, &table->positive, x, &state->lookup);
-    double negative = curve_value(pool, &table->negative, x, &state->lookup);
-    return -(negative + ramp(state->reversal_step, table->reversal_cycles) * (positive - negative));
+    return leadscrew_at(pool, table, state, position);
 }
 
 /* Go on with another table; a reversal that is under way stays as far as it is. */
@@ -942,18 +1015,20 @@ static double temperature_value(const TemperatureTable *table, const Temperature
     return state->offset + state->coefficient * (position - table->position);
 }
 
-/* Take over offset and coefficient where they are finite; true: they have changed. */
-static bool take_temperature(TemperatureState *state, const TemperatureInputs *given)
+/* Take over offset and coefficient if they are finite; return how much less is added with them at a position. */
+static double take_temperature(const TemperatureTable *table, TemperatureState *state, const TemperatureInputs *given,
+        double position)
 {
     if (given->offset == state->offset && given->coefficient == state->coefficient) {
-        return false;
+        return 0.0;
     }
     if (given->offset - given->offset != 0.0 || given->coefficient - given->coefficient != 0.0) {
-        return false;
+        return 0.0;
     }
+    double before = temperature_value(table, state, position);
     state->offset = given->offset;
     state->coefficient = given->coefficient;
-    return true;
+    return before - temperature_value(table, state, position);
 }
 
 /* Set the inputs to what the lists say. */
@@ -994,7 +1069,8 @@ static bool temperature_fits(const TemperatureTable *table)
  * `position`: the setpoint with all that was added before.
  */
 static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const Motion *motion, int32_t axis, double position, double cycle_time)
+        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis,
+        double position, double cycle_time)
 {
     if (kind == CROSS) {
         return cross_value(pool, &tables->cross, &states->cross, motion);
@@ -1017,22 +1093,58 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
     if (kind == BACKLASH) {
         return backlash_value(&tables->backlash, &states->backlash, motion->axis[axis].direction);
     }
-    return friction_current(pool, &tables->friction, &states->friction, &motion->axis[axis], cycle_time);
+    return friction_current(pool, &tables->friction, &states->friction, &given->friction, &motion->axis[axis],
+            cycle_time);
 }
 
-/* Take over the inputs of a kind; true: its values change by them, and are to blend in. */
-static bool is_renewed(int32_t kind, CompensationStates *states, const CompensationInputs *given)
+/* Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0. */
+static double settled_value(int32_t kind, const double *pool, const CompensationTables *tables,
+        CompensationStates *states, const Motion *motion, int32_t axis)
+{
+    if (kind == LEADSCREW) {
+        return leadscrew_at(pool, &tables->leadscrew, &states->leadscrew, states->leadscrew.counted);
+    }
+    if (kind == BACKLASH) {
+        return backlash_at(&tables->backlash, &states->backlash);
+    }
+    if (kind == CROSS) {
+        return cross_value(pool, &tables->cross, &states->cross, motion);
+    }
+    if (kind == PLANE) {
+        return plane_value(pool, &tables->plane, motion);
+    }
+    if (kind == CROSSTALK) {
+        return crosstalk_value(pool, &tables->crosstalk, &states->crosstalk, motion);
+    }
+    if (kind == TEMPERATURE) {
+        return temperature_value(&tables->temperature, &states->temperature, motion->axis[axis].setpoint);
+    }
+    return 0.0;
+}
+
+/* Tell whether a kind is given what its values change by. */
+static bool has_inputs(int32_t kind)
+{
+    return kind == TEMPERATURE;
+}
+
+/* Take over the inputs of a kind; return how much less it adds at full weight with them. */
+static double renew(int32_t kind, const CompensationTables *tables, CompensationStates *states,
+        const CompensationInputs *given, double position)
 {
     if (kind == TEMPERATURE) {
-        return take_temperature(&states->temperature, &given->temperature);
+        return take_temperature(&tables->temperature, &states->temperature, &given->temperature, position);
     }
-    return false;
+    return 0.0;
 }
 
-/* Tell whether a kind has been used where its table says nothing: the machine's user should know. */
-bool axcomp_has_left_table(int32_t kind, const CompensationStates *states)
+/* Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know. */
+bool axcomp_has_notice(int32_t kind, const CompensationStates *states)
 {
-    return kind == CROSSTALK && states->crosstalk.outside;
+    if (kind == CROSSTALK) {
+        return states->crosstalk.outside;
+    }
+    return kind == FRICTION && states->friction.predicted;
 }
 
 /* Set the inputs to what they are before anybody sets them. */
@@ -1120,7 +1232,7 @@ static void begin_release(Shift *shift)
     shift->waiting = 0.0;
 }
 
-/* Take the shift back over so many cycles, from the first motion on. */
+/* Take a shift back over so many cycles, from the first motion on. */
 static void release_shift(int32_t cycles, ShiftState *state, bool moving)
 {
     if (moving && state->step == 0 && (state->before.waiting != 0.0 || state->behind.waiting != 0.0)) {
@@ -1134,13 +1246,39 @@ static void release_shift(int32_t cycles, ShiftState *state, bool moving)
     double weight = ramp(state->step, cycles);
     state->before.now = state->before.waiting + weight * state->before.released;
     state->behind.now = state->behind.waiting + weight * state->behind.released;
+    state->pending = state->step > 0 || state->before.waiting != 0.0 || state->behind.waiting != 0.0;
 }
 
-/* Take out of the output what a compensation gains by being switched. */
+/* Let a gain wait. */
 static void absorb(Shift *shift, double gain)
 {
     shift->waiting -= gain;
     shift->now -= gain;
+}
+
+/* Take out of the output what a compensation gains by being switched; `is_before`: it is before the leadscrew. */
+static void absorb_switch(ShiftState *state, bool is_before, double gain)
+{
+    if (gain != 0.0) {
+        state->pending = true;
+        if (is_before) {
+            absorb(&state->before, gain);
+        } else {
+            absorb(&state->behind, gain);
+        }
+    }
+}
+
+/* Go on with a release of another length from where it stands. */
+static void adopt_shift(int32_t before, int32_t after, ShiftState *state)
+{
+    if (state->step > 0) {
+        double weight = ramp(state->step, before);
+        state->step = int_max(mapped_step(state->step, before, after), 1);
+        weight = weight / ramp(state->step, after);
+        state->before.released *= weight;
+        state->behind.released *= weight;
+    }
 }
 
 /* ================================= initial ==================================
@@ -1192,25 +1330,48 @@ static bool is_referenced(const SwitchTable *table, const Inputs *inputs)
  * While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
  */
 static void activate(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
-        bool moving)
+        AxisOutputs *out, bool released, bool moving)
 {
-    bool released = inputs->reset || inputs->program_end || (given->released && !axis->released);
-    axis->released = given->released;
-    for (int32_t kind = 0; kind < KINDS; kind++) {
+    axis->settled = axis->started && !axis->held;
+    for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
+        int32_t kind = table->kind[k];
+        SwitchState *state = &axis->switching[kind];
         if (table->switching[kind].configured) {
-            SwitchState *state = &axis->switching[kind];
             bool ready = is_referenced(&table->switching[kind], inputs);
             if (!axis->started) {
-                is_renewed(kind, &axis->compensation, &given->compensation);
                 begin_switch(&table->switching[kind], state, given->enable[kind], ready, released);
             } else {
                 heed_command(&table->switching[kind], state, given->enable[kind], released, given->no_move);
                 if (!axis->held) {
-                    state->renewed = is_renewed(kind, &axis->compensation, &given->compensation) || state->renewed;
-                    advance_switch(&table->switching[kind], state, ready, moving);
+                    bool settled = advance_switch(&table->switching[kind], state, ready, moving);
+                    axis->settled = axis->settled && settled;
                 }
             }
         }
+        if (!axis->held) {
+            out->active[kind] = state->step > 0;
+        }
+    }
+}
+
+/* Advance the switches of an axis by one cycle, unless they have settled and nothing is commanded or has changed.
+ *
+ * Manual compensations go off by reset, program end, or the edge with which the axis is released.
+ */
+static void activate_if_stirred(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
+        AxisOutputs *out, bool moving, bool references_changed)
+{
+    bool released = inputs->reset || inputs->program_end || (given->released && !axis->released);
+    axis->released = given->released;
+    bool stirred = released || references_changed || !axis->settled;
+    for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
+        int32_t kind = table->kind[k];
+        if (given->enable[kind] != axis->switching[kind].enable && table->switching[kind].configured) {
+            stirred = true;
+        }
+    }
+    if (stirred) {
+        activate(table, axis, inputs, given, out, released, moving);
     }
 }
 
@@ -1782,7 +1943,8 @@ static bool correction_at_place(const double *pool, const VolumetricTable *table
 /* Put Δ with W(q + Δ) = nominal W(q) into `correction`, which is 0 before; false: X, Y and Z are dependent here.
  *
  * The errors are evaluated at q, and where these take the axes again until nothing changes any more. How much they can
- * change is known from the steepness of the tables: most machines need two evaluations. `section`: see `errors_at`.
+ * change is known from the steepness of the tables: most machines need two evaluations.
+ * `section`: see `errors_at`.
  */
 static bool correction_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
         double tool_length, int32_t section[ERRORS], double correction[LINEAR])
@@ -2151,9 +2313,9 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
  */
 
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
-static void accept(const AxisTable *table, AxisState *axis, AxisMotion *motion, const AxisInputs *given,
-        double cycle_time)
+static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, const Inputs *inputs, int32_t i)
 {
+    const AxisInputs *given = &inputs->axis[i];
     axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
             && -LARGEST < given->velocity && given->velocity < LARGEST
             && -LARGEST < given->acceleration && given->acceleration < LARGEST
@@ -2161,78 +2323,93 @@ static void accept(const AxisTable *table, AxisState *axis, AxisMotion *motion, 
     if (!axis->held) {
         if (!axis->started) {
             motion->counted = given->setpoint;
+            motion->setpoint = given->setpoint;
         }
-        move_axis(motion, given->setpoint, given->velocity, cycle_time, table->modulo_range);
-        motion->acceleration = given->acceleration;
+        double velocity = given->velocity;
+        double acceleration = given->acceleration;
+        if (inputs->derive_motion) {
+            double way = nearest(given->setpoint - motion->setpoint, tables->axis[i].modulo_range);
+            velocity = way / tables->cycle_time;
+            acceleration = (velocity - motion->velocity) / tables->cycle_time;
+        }
+        move_axis(motion, given->setpoint, velocity, tables->cycle_time, tables->axis[i].modulo_range);
+        motion->acceleration = acceleration;
     }
 }
 
-/* Tell whether a kind has a table, or had one whose values still run out. */
-static bool acts(const SwitchTable *table, const SwitchState *state)
-{
-    return table->configured || state->contribution != 0.0;
-}
-
-/* Return what a kind adds to axis i in this cycle; what NO_MOVE absorbs of it goes into the shift. */
-static double correct_by(int32_t kind, const Tables *tables, const double *pool, State *state, AxisOutputs *out,
-        int32_t i, double position)
+/* Return what a kind adds to axis i in this cycle, after `correction`.
+ *
+ * What NO_MOVE absorbs of it goes into the shift. Without a table it adds what is left of the one it had.
+ */
+static double correct_by(int32_t kind, const Tables *tables, const double *pool, State *state, const AxisInputs *given,
+        AxisOutputs *out, int32_t i, double correction)
 {
     const AxisTable *table = &tables->axis[i];
     AxisState *axis = &state->axis[i];
+    const SwitchTable *switching = &table->switching[kind];
     SwitchState *own = &axis->switching[kind];
     double value = 0.0;
-    if (table->switching[kind].configured) {
-        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &state->motion, i, position,
-                tables->cycle_time);
+    if (switching->configured) {
+        double position = state->motion.axis[i].setpoint;
+        if (has_inputs(kind)) {
+            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation, position);
+            if (axis->started) {
+                blend_in(switching, own, own->weight * lost);
+            }
+        }
+        if (kind == LEADSCREW) {
+            position = position + (correction + axis->shift.before.now);
+        }
+        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation,
+                &state->motion, i, position, tables->cycle_time);
     }
-    out->contribution[kind] = contribution_of(&table->switching[kind], own, value);
-    out->active[kind] = own->step > 0;
-    if (kind < LEADSCREW) {
-        absorb(&axis->shift.before, own->absorbed * value);
-    } else if (kind < FRICTION) {
-        absorb(&axis->shift.behind, own->absorbed * value);
+    double contribution = contribution_of(switching, own, value);
+    if (!axis->settled && kind < FRICTION) {
+        absorb_switch(&axis->shift, kind < LEADSCREW, own->absorbed * value);
     }
-    return out->contribution[kind];
+    out->contribution[kind] = contribution;
+    return contribution;
 }
 
 /* Correct one axis. */
-static void correct_axis(const Tables *tables, const double *pool, State *state, const Inputs *inputs, AxisOutputs *out,
-        int32_t i)
+static void correct_axis(const Tables *tables, const double *pool, State *state, const AxisInputs *given,
+        AxisOutputs *out, int32_t i)
 {
     const AxisTable *table = &tables->axis[i];
     AxisState *axis = &state->axis[i];
     const AxisMotion *motion = &state->motion.axis[i];
-    release_shift(table->shift_cycles, &axis->shift, motion->moving);
+    if (axis->shift.pending) {
+        release_shift(table->shift_cycles, &axis->shift, motion->moving);
+    }
 
     double correction = 0.0;
-    double position = motion->setpoint;
-    for (int32_t kind = 0; kind < FRICTION; kind++) {
-        if (kind == LEADSCREW) {
-            position = motion->setpoint + (correction + axis->shift.before.now);
-        }
-        if (acts(&table->switching[kind], &axis->switching[kind])) {
-            correction += correct_by(kind, tables, pool, state, out, i, position);
+    for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
+        int32_t kind = table->kind[k];
+        double contribution = correct_by(kind, tables, pool, state, given, out, i, correction);
+        if (kind < FRICTION) {
+            correction += contribution;
         }
     }
     out->volumetric_correction = axis->volumetric_correction;
     correction += out->volumetric_correction;
-
     out->correction = correction;
     out->setpoint_shift = axis->shift.before.now + axis->shift.behind.now + axis->volumetric_shift;
     out->stop_request = axis->stop_request;
     out->corrected_setpoint = motion->setpoint + (correction + out->setpoint_shift);
-    out->display_position = inputs->axis[i].actual_position - (correction + out->setpoint_shift);
-    if (acts(&table->switching[FRICTION], &axis->switching[FRICTION])) {
-        correct_by(FRICTION, tables, pool, state, out, i, position);
-    }
+    out->display_position = given->actual_position - (correction + out->setpoint_shift);
     axis->started = true;
 }
 
 /* Run one cycle: the outputs belong to these inputs. */
 void axcomp_cycle(const Tables *tables, const double *pool, State *state, const Inputs *inputs, Outputs *outputs)
 {
+    bool references_changed = false;
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(&tables->axis[i], &state->axis[i], &state->motion.axis[i], &inputs->axis[i], tables->cycle_time);
+        accept(tables, &state->axis[i], &state->motion.axis[i], inputs, i);
+        if (inputs->axis[i].referenced != state->axis[i].referenced) {
+            state->axis[i].referenced = inputs->axis[i].referenced;
+            references_changed = true;
+        }
     }
     if (tables->volumetrics > 0) {
         compensate_volume(tables, pool, state, inputs, outputs);
@@ -2242,11 +2419,13 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
         if (inputs->reset) {
             axis->error = 0;
         }
-        activate(&tables->axis[i], axis, inputs, &inputs->axis[i], state->motion.axis[i].moving);
+        bool moving = state->motion.axis[i].moving;
+        activate_if_stirred(&tables->axis[i], axis, inputs, &inputs->axis[i], &outputs->axis[i], moving,
+                references_changed);
         if (axis->held) {
             outputs->axis[i].error = ERROR_INPUT;
         } else {
-            correct_axis(tables, pool, state, inputs, &outputs->axis[i], i);
+            correct_axis(tables, pool, state, &inputs->axis[i], &outputs->axis[i], i);
             outputs->axis[i].error = axis->error;
         }
     }
@@ -2287,25 +2466,45 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
 /* Let what an axis activated at the start count for the next update too. */
 void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
 {
+    after->kinds = before->kinds;
     for (int32_t kind = 0; kind < KINDS; kind++) {
+        after->kind[kind] = before->kind[kind];
         after->switching[kind].reserved = before->switching[kind].reserved;
         after->switching[kind].points_error = before->switching[kind].points_error;
     }
 }
 
-/* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
-void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given)
+/* Make the state of axis i fit its new tables (`update_error` is 0); what was declared stays declared.
+ *
+ * Where the new tables say something else for the position where the axis is, the difference is blended in.
+ */
+void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisTable *after, const double *after_pool,
+        State *state, AxisInputs *given, int32_t i)
 {
-    for (int32_t kind = 0; kind < KINDS; kind++) {
-        adopt_switch(&before->switching[kind], &after->switching[kind], &axis->switching[kind]);
-        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
-        if (!after->switching[kind].configured) {
-            after->switching[kind].blend_cycles = before->switching[kind].blend_cycles;
-        }
-    }
+    AxisState *axis = &state->axis[i];
+    axis->settled = false;
     axcomp_keep_declared(before, after);
+    for (int32_t k = 0, k_end = after->kinds; k < k_end; k++) {
+        int32_t kind = after->kind[k];
+        SwitchState *own = &axis->switching[kind];
+        SwitchTable *switching = &after->switching[kind];
+        if (!switching->configured) {
+            switching->blend_cycles = before->switching[kind].blend_cycles;
+        }
+        double weight = own->weight;
+        double value = 0.0;
+        if (weight > 0.0) {
+            value = settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
+        }
+        adopt_switch(&before->switching[kind], switching, own);
+        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
+        if (weight > 0.0 && switching->configured) {
+            value -= settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);
+        }
+        blend_in(switching, own, weight * value);
+    }
     adopt_inputs(&before->compensation, &after->compensation, &given->compensation);
-    axis->shift.step = int_min(axis->shift.step, after->shift_cycles);
+    adopt_shift(before->shift_cycles, after->shift_cycles, &axis->shift);
 }
 
 /* Make the state of the volumetric compensations fit their new tables. */
@@ -2491,6 +2690,14 @@ static bool axis_fits(const AxisTable *table, const double *pool, int32_t axes, 
     if (!(0 <= table->first && table->first <= numbers
             && 0 <= table->numbers && table->numbers <= numbers - table->first)) {
         return false;
+    }
+    if (!(0 <= table->kinds && table->kinds <= KINDS)) {
+        return false;
+    }
+    for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
+        if (!(0 <= table->kind[k] && table->kind[k] < KINDS)) {
+            return false;
+        }
     }
     for (int32_t kind = 0; kind < KINDS; kind++) {
         if (table->switching[kind].configured) {

@@ -46,9 +46,7 @@ typedef struct {
     int32_t step;  /* k of w(k) */
     double weight;  /* w(k), 0 … 1 */
     double absorbed;  /* change of the weight that NO_MOVE takes out of the output, this cycle only */
-    double contribution;  /* what it adds */
-    bool renewed;  /* its values are others than in the last cycle */
-    double difference;  /* what it added before it was renewed, less what it adds now */
+    double difference;  /* what it added with its old values, less what it adds with the new ones, when those came */
     int32_t blend_step;  /* of the transition to the new values: blend_cycles … 0 */
 } SwitchState;
 
@@ -183,6 +181,12 @@ typedef struct {
     double modulo_range;  /* of the axis; 0: it does not count modulo */
 } FrictionTable;
 
+/* What is known of the motion to come. */
+typedef struct {
+    bool ahead_known;
+    double velocity_ahead[LOOKAHEAD_MAX];  /* of the next cycles */
+} FrictionInputs;
+
 /* What the friction compensation remembers. */
 typedef struct {
     Lookup lookup;
@@ -191,6 +195,7 @@ typedef struct {
     bool built_up;  /* the axis has gone position_delay since */
     int32_t since_reversal;  /* cycles, at most lookahead */
     int32_t head;  /* where the delay line is written next */
+    bool predicted;  /* a reversal has been predicted from velocity and acceleration, for want of velocities to come */
     double line[DELAY_LINE];
 } FrictionState;
 
@@ -287,6 +292,7 @@ typedef struct {
 /* What the compensations of an axis are given besides its motion. */
 typedef struct {
     TemperatureInputs temperature;
+    FrictionInputs friction;
 } CompensationInputs;
 
 /* ================================== shift =================================== */
@@ -303,6 +309,7 @@ typedef struct {
     Shift before;
     Shift behind;
     int32_t step;  /* of the release: shift_cycles … 0; 0: none is under way */
+    bool pending;  /* there is a shift */
 } ShiftState;
 
 /* ============================ volumetric_records ============================
@@ -444,6 +451,8 @@ typedef struct {
     int32_t numbers;
     double modulo_range;  /* 0: no modulo axis */
     int32_t shift_cycles;  /* over which a shift is released, at least 1 */
+    int32_t kinds;  /* that the axis activates, with or without a table */
+    int32_t kind[KINDS];  /* their numbers, ascending */
     SwitchTable switching[KINDS];
     CompensationTables compensation;
 } AxisTable;
@@ -452,6 +461,8 @@ typedef struct {
 typedef struct {
     bool started;
     bool held;  /* this cycle's inputs cannot be used */
+    bool settled;  /* no switch changes until a command, a reference or a release does */
+    bool referenced;  /* the input in the last cycle */
     bool released;  /* the input in the last cycle */
     int32_t error;  /* stays until reset */
     bool stop_request;  /* stays until reset, or until a volumetric compensation is switched on again */
@@ -510,6 +521,7 @@ typedef struct {
 typedef struct {
     bool reset;
     bool program_end;
+    bool derive_motion;  /* velocities and accelerations are not given: they follow from the setpoints */
     AxisInputs axis[AXES];
     double tool_length;  /* mm */
     VolumetricInputs volumetric[VOLUMETRICS];
@@ -549,8 +561,8 @@ typedef struct {
 extern "C" {
 #endif
 
-/* Tell whether a kind has been used where its table says nothing: the machine's user should know. */
-AXCOMP_API bool axcomp_has_left_table(int32_t kind, const CompensationStates *states);
+/* Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know. */
+AXCOMP_API bool axcomp_has_notice(int32_t kind, const CompensationStates *states);
 
 /* Set inputs that are all 0 to what they are at the start. */
 AXCOMP_API void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs);
@@ -562,8 +574,9 @@ AXCOMP_API void axcomp_cycle(const Tables *tables, const double *pool, State *st
 /* Return why an axis cannot take new tables, 0 if it can. */
 AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after);
 
-/* Make the state of an axis fit its new tables (`update_error` is 0); what was declared stays declared. */
-AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, AxisTable *after, AxisState *axis, AxisInputs *given);
+/* Make the state of axis i fit its new tables (`update_error` is 0); what was declared stays declared. */
+AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisTable *after,
+        const double *after_pool, State *state, AxisInputs *given, int32_t i);
 
 /* Let what an axis activated at the start count for the next update too. */
 AXCOMP_API void axcomp_keep_declared(const AxisTable *before, AxisTable *after);

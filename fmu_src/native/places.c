@@ -11,7 +11,8 @@ const Place axcomp_machine_places[PLACES] = {
     AT(2) {'b', 'i', offsetof(Memory, controls.reload)},
     AT(3) {'s', 't', offsetof(Memory, controls.update_path)},
     AT(4) {'r', 'p', offsetof(Memory, controls.cycle_time)},
-    AT(5) {'r', 'i', offsetof(Memory, inputs.tool_length)}
+    AT(5) {'r', 'i', offsetof(Memory, inputs.tool_length)},
+    AT(6) {'b', 'p', offsetof(Memory, inputs.derive_motion)}
 };
 
 const Place axcomp_axis_places[PLACES] = {
@@ -61,7 +62,13 @@ const Place axcomp_axis_places[PLACES] = {
     AT(43) {0, 0, 0},
     AT(44) {'b', 'i', offsetof(AxisInputs, enable[BACKLASH])},
     AT(45) {'b', 'o', offsetof(AxisOutputs, active[BACKLASH])},
-    AT(46) {'r', 'o', offsetof(AxisOutputs, contribution[BACKLASH])}
+    AT(46) {'r', 'o', offsetof(AxisOutputs, contribution[BACKLASH])},
+    AT(47) {0, 0, 0},
+    AT(48) {'b', 'i', offsetof(AxisInputs, compensation.friction.ahead_known)},
+    AT(49) {'r', 'i', offsetof(AxisInputs, compensation.friction.velocity_ahead[0])},
+    AT(50) {'r', 'i', offsetof(AxisInputs, compensation.friction.velocity_ahead[1])},
+    AT(51) {'r', 'i', offsetof(AxisInputs, compensation.friction.velocity_ahead[2])},
+    AT(52) {'r', 'i', offsetof(AxisInputs, compensation.friction.velocity_ahead[3])}
 };
 
 const Place axcomp_volumetric_places[PLACES] = {
@@ -80,5 +87,5 @@ const char *const axcomp_notices[KINDS] = {
     AT(TEMPERATURE) NULL,
     AT(LEADSCREW) NULL,
     AT(BACKLASH) NULL,
-    AT(FRICTION) NULL
+    AT(FRICTION) "its friction compensation predicts reversals: nothing gives it velocity_ahead, as its look-ahead needs"
 };

@@ -12,7 +12,7 @@ import fmpy
 import pytest
 
 from axcomp.cli import main
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
 from axcomp.lists import write_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, Machine

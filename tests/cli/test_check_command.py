@@ -7,7 +7,7 @@ import pytest
 
 from axcomp.cli import main
 from axcomp.cli.check import STATUS_MAX
-from axcomp.kinds.cross import Cross
+from axcomp.kinds import Cross
 from axcomp.lists import write_machine
 from axcomp.lists.catalogue import CATALOGUE
 from axcomp.lists.reference import PAGE, page

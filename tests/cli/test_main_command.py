@@ -19,16 +19,17 @@ def test_the_help_names_the_commands_that_a_missing_package_hides(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def importing(name: str, package: str) -> ModuleType:
-        if name == ".measure":
-            raise ModuleNotFoundError("No module named 'pandas'", name="pandas")
+        if name == ".diagnose":
+            raise ModuleNotFoundError("No module named 'openpyxl'", name="openpyxl")
         return import_module(name, package)
 
     monkeypatch.setattr("axcomp.cli.import_module", importing)
+    monkeypatch.setattr("axcomp.cli.find_spec", lambda name: None if name == "openpyxl" else object())
     with pytest.raises(SystemExit, match="0"):
         main(["--help"])
-    assert "pip install 'axcomp[workbench]' there are also: measure." in " ".join(capsys.readouterr().out.split())
-    with pytest.raises(SystemExit, match="measure needs pandas"):
-        main(["measure", "--help"])
+    assert "pip install 'axcomp[workbench]' there are also: diagnose." in " ".join(capsys.readouterr().out.split())
+    with pytest.raises(SystemExit, match="diagnose needs openpyxl"):
+        main(["diagnose", "--help"])
 
 
 def test_a_file_that_is_missing_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:

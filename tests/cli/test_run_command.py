@@ -8,7 +8,7 @@ import pytest
 
 from axcomp.cli import main
 from axcomp.engine.engine import Engine
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
 from axcomp.lists import write_machine
 from axcomp.model.machine import Axis, Machine
 

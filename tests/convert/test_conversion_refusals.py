@@ -11,9 +11,7 @@ from axcomp.convert.formats import FORMATS, Options, recognized, written
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.resample import on_equidistant_points
 from axcomp.convert.table import CannotHoldError, CompensationTable, FormatError, beginning_at, largest_difference
-from axcomp.kinds import KINDS
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import KINDS, Friction, Plane
 from axcomp.model.machine import Axis, Machine
 
 UNEVEN = CompensationTable.of("X", "X", (0.0, 10.0, 30.0, 45.0), (0.0, 0.01, 0.02, 0.0))

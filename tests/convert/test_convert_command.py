@@ -7,9 +7,7 @@ from pathlib import Path
 import pytest
 
 from axcomp.cli import convert, main
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import read_machine, write_machine
 from axcomp.model.machine import Axis, Machine
 

@@ -10,8 +10,7 @@ from axcomp.convert.linuxcnc import read_linuxcnc, write_linuxcnc
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.plain_csv import read_csv
 from axcomp.convert.table import CompensationTable
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.runtime import Runtime
 

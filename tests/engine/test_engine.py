@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from axcomp import Engine, Machine
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.model.machine import Axis
 from axcomp.native.library import compiled_kernel
 

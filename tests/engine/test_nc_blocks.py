@@ -59,8 +59,8 @@ def test_blocks_say_what_the_manuals_say(block: str, commands: list[Command]) ->
     ("block", "place", "expected"),
     [
         ("X[COMP ONE CROSS]", 8, "ON or OFF or OFF_ALL is expected, not “ONE”"),
-        ("X[COMP ON CROS]", 11, "CROSS, PLANE, LEAD, FRICT, CROSSTALK"),
-        ("X[COMP OFF]", 11, "CROSS, PLANE, LEAD, FRICT, CROSSTALK is expected, not “]”"),
+        ("X[COMP ON CROS]", 11, "CROSS, PLANE, CROSSTALK, TEMP, LEAD, BACKLASH, FRICT, NO_MOVE"),
+        ("X[COMP OFF]", 11, "CROSS, PLANE, CROSSTALK, TEMP, LEAD, BACKLASH, FRICT is expected, not “]”"),
         ("X[COMP ON\nCROSS]", 10, "not the end of the line"),
         ("X[COMP ON CROSS", 16, "not the end of the block"),
         ("X[COM ON CROSS]", 3, "COMP is expected"),

@@ -9,9 +9,7 @@ import pytest
 
 from axcomp.engine.engine import Engine, Result
 from axcomp.engine.nc_scanner import NcError
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.lists import write_machine
 from axcomp.model.machine import Axis, AxisType, Machine
 from axcomp.model.volumetric import ErrorTable, Volumetric

@@ -14,7 +14,7 @@ from fmu_machines import three_axes
 
 from axcomp.fmu.archive import BuildError
 from axcomp.fmu.package import package_axcomp
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
 from axcomp.lists import read_machine, write_machine
 from axcomp.model.machine import Axis, Machine
 from axcomp.plant.fmu import package_plant

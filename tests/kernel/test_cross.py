@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from driving import drive, to_and_fro
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
 from axcomp.model.machine import Axis, Machine
 
 X_POSITIONS = (-40.0, -10.0, 0.0, 0.5, 3.0, 80.0)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 from scipy.spatial import ConvexHull
 
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
+from axcomp.kinds import Crosstalk, CrosstalkCurve, CrosstalkTest
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.runtime import Runtime
 

@@ -5,11 +5,7 @@ import pytest
 from driving import OUTPUTS, drive, to_and_fro
 
 from axcomp.kernel.records import ERROR_INPUT
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, CrosstalkCurve, Friction, Leadscrew, Plane
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.runtime import Runtime
 

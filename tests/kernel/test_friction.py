@@ -7,7 +7,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from axcomp.kinds.friction import Friction
+from axcomp.kinds import Friction
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.runtime.runtime import Runtime
 

@@ -5,10 +5,7 @@ import pytest
 from driving import drive, forward, soft, to_and_fro, walk
 from numpy.typing import NDArray
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, CrosstalkCurve, Leadscrew, Plane
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 POSITIONS = (-50.0, -20.0, -19.5, 0.0, 30.0, 31.0, 90.0)

@@ -6,10 +6,7 @@ from driving import drive, soft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, CrosstalkCurve, Leadscrew, Plane
 from axcomp.model.machine import Axis, Machine
 
 N = 8

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Plane
 from axcomp.model.machine import Axis, Machine
 
 

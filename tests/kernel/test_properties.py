@@ -7,14 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from strategies import machines
 
-from axcomp.kinds import KIND_NAMES
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import KIND_NAMES, Backlash, Cross, Crosstalk, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
 from axcomp.model.machine import Axis, Machine, ModuloRange
 from axcomp.runtime.runtime import Runtime
 

@@ -9,13 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
 from axcomp.model.machine import Axis, Machine
 
 N = 6
@@ -128,7 +122,11 @@ class TestStandstill:
     @pytest.mark.parametrize("kind", SOFT)
     def test_residue_of_rounding_is_standstill(self, kind: str) -> None:
         # v += a·T leaves 1e-15; setpoints jitter in their last place
-        columns = {f"S.{kind}_enable": flags("1......"), "S.velocity": 1e-15, "S.setpoint": 7.0 + 1e-15 * flags(".1.1.1.")}
+        columns = {
+            f"S.{kind}_enable": flags("1......"),
+            "S.velocity": 1e-15,
+            "S.setpoint": 7.0 + 1e-15 * flags(".1.1.1."),
+        }
         w = drive(compensated(kind), columns)[f"S.{kind}_correction"]
         assert w == pytest.approx(ramped(kind, "1......"), abs=1e-15)
 

@@ -60,9 +60,9 @@ kw.crosstalk.table[2].correction 50
 
 
 def places(*positions: tuple[int, int]) -> str:
-    """Return crosstalk tests at given positions of the adaptation axes."""
+    """Return crosstalk tests at given positions of the adaptation axes, 0.1 mm."""
     return "".join(
-        f"kw.crosstalk.position[{i}].ax_1 {a}\nkw.crosstalk.position[{i}].ax_2 {b}\n"
+        f"kw.crosstalk.position[{i}].ax_1 {1000 * a}\nkw.crosstalk.position[{i}].ax_2 {1000 * b}\n"
         f"kw.crosstalk.position[{i}].correction_accelerate_dir_pos {i + 1}\n"
         f"kw.crosstalk.position[{i}].correction_decelerate_dir_pos {-i - 1}\n"
         for i, (a, b) in enumerate(positions)
@@ -342,10 +342,41 @@ CASES = [
         "kw.crosstalk.table[0].acceleration",
         "crosstalk",
     ),
+    # One stray entry of the new variant does not switch off a list of the old one.
+    one("AXC-VARIANT", f"kw.crosstalk.mode 3\n{OLD_CROSSTALK}", 1, "kw.crosstalk.mode", "crosstalk"),
     one("AXC-TESTS", f"kw.crosstalk.mode 2\n{CROSSTALK}{places((0, 0))}", 1, "kw.crosstalk.mode"),
     one("AXC-TESTS", f"kw.crosstalk.mode 3\n{CROSSTALK}{places((0, 0), (1, 1))}", 1, "kw.crosstalk.mode"),
     one("AXC-TESTS", f"kw.crosstalk.mode 3\n{CROSSTALK}{places((0, 0), (1, 3), (-2, -6))}", 1, "kw.crosstalk.mode"),
     one("AXC-TESTS", f"kw.crosstalk.max_points 1\n{CROSSTALK}", 0, "kw.crosstalk.mode"),
+    one(
+        "AXC-TESTS",
+        f"kw.crosstalk.mode 3\nkw.crosstalk.max_points 10\n{CROSSTALK}"
+        + places(*((a, b) for a in range(3) for b in range(3))),
+        2,
+        "kw.crosstalk.max_points",
+    ),
+    one(
+        "AXC-DIRECTION",
+        f"{CROSSTALK}{places((0, 0))}kw.crosstalk.position[0].correction_accelerate_dir_neg 3\n",
+        11,
+        "kw.crosstalk.position[0].correction_accelerate_dir_neg",
+        "crosstalk",
+    ),
+    one(
+        "AXC-ADAPTATION",
+        "kw.crosstalk.mode 3\n" + CROSSTALK.replace("pos2_ax_nr 3", "pos2_ax_nr 2") + places((0, 0), (9, 0), (5, 5)),
+        5,
+        "kw.crosstalk.master_pos2_ax_nr",
+        "crosstalk",
+    ),
+    one("AXC-SCALING", f"frict_comp.scaling_factor -1000\n{FRICTION}", 1, "frict_comp.scaling_factor", "friction"),
+    one(
+        "AXC-LOOKAHEAD",
+        f"frict_comp.reversal_lookahead 2\nfrict_comp.delay_cycles 1\n{FRICTION}",
+        1,
+        "frict_comp.reversal_lookahead",
+        "friction",
+    ),
     one(
         "AXC-TESTS-FEW",
         f"kw.crosstalk.mode 2\n{CROSSTALK}{places((0, 0), (9, 0))}",

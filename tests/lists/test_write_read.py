@@ -9,9 +9,7 @@ import pytest
 from hypothesis import given, settings
 from strategies import machines
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import ListError, Severity, format_compensation_list, read_machine, write_machine
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import compile_tables
@@ -28,6 +26,7 @@ def test_written_lists_read_back_to_the_same_machine_without_complaint(machine: 
 
 
 SHORTFALLS = {"AXC-OUTSIDE", "AXC-AT-REST", "AXC-MASTER-SELF", "AXC-MODULO-SEAM", "AXC-TESTS-FEW"}
+SHORTFALLS |= {"AXC-SCALING", "AXC-LOOKAHEAD", "AXC-ADAPTATION"}
 """What a machine may be and a list should not: long delays, friction at standstill, a step at the modulo seam …"""
 
 

@@ -118,3 +118,28 @@ def test_the_order_of_the_points_only_renames_them() -> None:
 
 def test_no_points_have_no_triangles() -> None:
     assert triangulate([], []) == Triangulation([], [])
+
+
+@settings(max_examples=50)
+@given(seed=st.integers(0, 10_000), n=st.integers(4, 9))
+def test_the_order_of_the_points_makes_no_difference(seed: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    # a grid has circles through four points, which may be joined in two ways
+    points = rng.choice(np.array(list(product(range(3), range(3))), float), n, replace=False)
+    values = rng.integers(0, 4, n).astype(float)
+    shuffled = rng.permutation(n)
+
+    def joined(order: NDArray[np.int64]) -> set[frozenset[tuple[float, ...]]]:
+        at = points[order]
+        found = triangulate(at[:, 0].tolist(), at[:, 1].tolist(), [(v,) for v in values[order].tolist()])
+        return {frozenset(tuple(at[i].tolist()) for i in t) for t in found.triangles}
+
+    assert joined(np.arange(n)) == joined(shuffled)
+
+
+@pytest.mark.parametrize(("values", "diagonal"), [((1, 5, 1, 9), {0, 2}), ((1, 5, 7, 5), {1, 3})])
+def test_of_four_points_on_a_circle_those_are_joined_that_differ_least(
+    values: tuple[float, ...], diagonal: set[int]
+) -> None:
+    found = triangulate([0.0, 1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 1.0], [(v,) for v in values])
+    assert {frozenset(t) for t in found.triangles} == {frozenset({*diagonal, k}) for k in {0, 1, 2, 3} - diagonal}

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 
 from axcomp.engine.engine import Engine
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkTest
-from axcomp.kinds.tables import tables_of
+from axcomp.kinds import Crosstalk, CrosstalkTest, tables_of
 from axcomp.model.grid import Grid, Scatter
 from axcomp.model.machine import Axis, Machine
 from axcomp.model.quantity import Quantity

@@ -13,8 +13,7 @@ from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv, write_expected
 from axcomp.demo.examples.machines import MACHINES
 from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.engine.engine import Engine
-from axcomp.kinds import KINDS
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve
+from axcomp.kinds import KINDS, Crosstalk, CrosstalkCurve
 from axcomp.kinds.parameter import ListKind, Severity
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
@@ -38,6 +37,13 @@ def test_input_and_expected_output_are_current(name: str, tmp_path: Path) -> Non
     for write in (write_input, write_expected):
         path = write(models() / name, tmp_path)
         assert path.read_bytes() == (models() / name / path.name).read_bytes()
+
+
+def test_what_is_activated_without_a_usable_table_has_outputs_and_does_nothing() -> None:
+    expected = read_csv(MANUALS / EXPECTED)
+    for kind in ("Y_ACHSE.leadscrew", "Z.cross"):
+        assert not np.any(expected[f"{kind}.active"])
+        assert not np.any(expected[f"{kind}.correction"])
 
 
 @pytest.mark.parametrize("name", MODELS)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import gc
 import shutil
 import subprocess
 from dataclasses import dataclass
@@ -12,9 +11,10 @@ from typing import Annotated
 
 import pytest
 
-from axcomp.kernel.record import Vec, fields_of, zero
+from axcomp.kernel.record import fields_of, zero
 from axcomp.kernel.records import Inputs, Outputs, State, Tables
 from axcomp.native.layout import ctypes_of, from_c, to_c
+from axcomp.native.places import _layout_of
 
 SOURCES = Path(__file__).parents[2] / "fmu_src" / "native"
 
@@ -24,7 +24,6 @@ class Part:
     """A record in a record."""
 
     on: bool
-    table: Vec
     weight: float
 
 
@@ -43,27 +42,12 @@ class Whole:
 def test_what_goes_to_c_comes_back() -> None:
     whole = zero(Whole)
     whole.count, whole.flags, whole.numbers, whole.line = -7, [True, False, True], [3, -4], [0.1, -0.0]
-    whole.parts[2].on, whole.parts[2].weight, whole.part.table = True, 2.5, [1.0, 2.0]
+    whole.parts[2].on, whole.parts[2].weight = True, 2.5
     struct = ctypes_of(Whole)()
     to_c(whole, struct)
     back = zero(Whole)
-    back.part.table = whole.part.table
     from_c(struct, back)
     assert back == whole
-
-
-def test_a_table_lives_as_long_as_its_structure_and_is_copied_once() -> None:
-    whole = zero(Whole)
-    whole.part.table = whole.parts[1].table = [float(i) for i in range(1000)]
-    struct = ctypes_of(Whole)()
-    to_c(whole, struct)
-    del whole
-    gc.collect()
-    junk = [(ctypes.c_double * 1000)() for _ in range(100)]
-    assert struct.part.table[:1000] == struct.parts[1].table[:1000] == [float(i) for i in range(1000)]
-    places = [ctypes.cast(part.table, ctypes.c_void_p).value for part in (struct.part, struct.parts[1])]
-    assert places[0] == places[1]
-    assert len(junk) == 100
 
 
 def test_a_list_that_was_cut_fills_the_front_of_its_array() -> None:
@@ -95,3 +79,20 @@ def test_every_field_of_the_kernel_lies_where_the_compiler_puts_it(record: type,
     struct = ctypes_of(record)
     expected = [getattr(struct, field).offset for field in fields] + [ctypes.sizeof(struct)]
     assert [int(number) for number in found] == expected
+
+
+@dataclass(slots=True)
+class Outermost:
+    """Parts two records deep."""
+
+    wholes: Annotated[list[Whole], 2]
+
+
+def test_a_layout_tells_of_records_at_any_depth() -> None:
+    part = ctypes_of(Part)
+    lines = _layout_of(Outermost)
+    for name, _ in part._fields_:
+        place = getattr(part, name)
+        assert (
+            sum(line.startswith(f"{name} ") and line.endswith(f" {place.offset} {place.size}") for line in lines) == 2
+        )

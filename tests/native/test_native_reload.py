@@ -15,7 +15,7 @@ from fmu_machines import three_axes, trajectory
 
 from axcomp.engine.engine import Engine
 from axcomp.fmu.native_package import write_image
-from axcomp.kinds.cross import Cross
+from axcomp.kinds import Cross
 from axcomp.lists import write_machine
 from axcomp.model.machine import Axis, Machine
 from axcomp.native.image import HEADER_BEFORE_CHECK

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Crosstalk, CrosstalkCurve, CrosstalkTest, Friction, Leadscrew, Plane
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.model.volumetric import ErrorTable, Volumetric
 

@@ -9,7 +9,7 @@ from scipy.interpolate import LinearNDInterpolator
 from shown_machines import MACHINE, MEASURED, PLANE, SCATTERED, SCREW, VOLUMETRIC, table
 
 from axcomp.engine.tcp_model import TcpModel
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
 from axcomp.model.curve import Curve
 from axcomp.model.machine import Axis, Machine
 from axcomp.model.quantity import Quantity

@@ -16,9 +16,7 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.lists import read_machine, write_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange

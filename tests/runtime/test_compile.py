@@ -7,13 +7,21 @@ import pytest
 from hypothesis import given, settings
 from strategies import machines
 
+from axcomp.kernel.compensations import CROSS, FRICTION
+from axcomp.kernel.compensations import PLANE as PLANE_KIND
 from axcomp.kernel.crosstalk import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
 from axcomp.kernel.fit import tables_fit
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import (
+    Backlash,
+    Cross,
+    Crosstalk,
+    CrosstalkCurve,
+    CrosstalkTest,
+    Friction,
+    Leadscrew,
+    Plane,
+    Temperature,
+)
 from axcomp.model.machine import CYCLE_TIME, Axis, AxisType, Machine, ModuloRange
 from axcomp.runtime.compile import CompileError, compile_tables
 
@@ -70,6 +78,11 @@ REFUSED: dict[str, Axis] = {
     "the position delay is not negative": replace(X, friction=Friction(*CURVE, position_delay=-1.0)),
     "friction: the position delay": replace(X, friction=Friction(*CURVE, position_delay=NAN)),
     "friction: the scaling must be finite": replace(X, friction=Friction(*CURVE, scaling=INF)),
+    "temperature: a number is not finite": replace(X, temperature=Temperature(NAN)),
+    "temperature: a number is not": replace(X, temperature=Temperature(coefficient=INF)),
+    "n_cycles is 0 … 20, not 22": replace(X, temperature=Temperature(n_cycles=22)),
+    "backlash: the amount is not finite": replace(X, backlash=Backlash(-INF)),
+    "backlash: mode 3 is not 1 or 2": replace(X, backlash=Backlash(0.01, 3)),
 }
 
 
@@ -96,26 +109,27 @@ def test_the_cycle_time_must_be_usable(cycle_time: float) -> None:
 
 def test_axis_numbers_become_indices() -> None:
     masters = Machine((Axis(17, "A"), Axis(3, "B", cross=Cross(40, *CURVE)), Axis(40, "C", cross=Cross(17, *CURVE))))
-    tables = compile_tables(masters)
+    tables = compile_tables(masters).tables
     assert (tables.axis_count, tables.cycle_time) == (3, CYCLE_TIME)
-    assert [axis.cross.switching.configured for axis in tables.axis[:4]] == [False, True, True, False]
-    assert [tables.axis[1].cross.master, tables.axis[2].cross.master] == [2, 0]
+    assert [axis.switching[CROSS].configured for axis in tables.axis[:4]] == [False, True, True, False]
+    assert [axis.compensation.cross.master.axis for axis in tables.axis[1:3]] == [2, 0]
+    assert [axis.switching[CROSS].need[: axis.switching[CROSS].needs] for axis in tables.axis[:4]] == [[], [2], [0], []]
 
 
 def test_a_modulo_table_is_closed_by_its_first_point() -> None:
     leadscrew = Leadscrew((10.0, 100.0), (1.0, 2.0), (3.0, 4.0), modulo=True)
-    tables = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY, ModuloRange(), leadscrew=leadscrew),)))
-    table = tables.axis[0].leadscrew
+    tables, pool = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY, ModuloRange(), leadscrew=leadscrew),)))
+    table = tables.axis[0].compensation.leadscrew
     assert (table.positive.points, table.negative.points, table.positive.x) == (3, 3, table.negative.x)
-    assert tables.pool[table.positive.x :][:3] == [10.0, 100.0, 370.0]
-    assert tables.pool[table.positive.y :][:3] == [1.0, 2.0, 1.0]
-    assert tables.pool[table.negative.y :][:3] == [3.0, 4.0, 3.0]
+    assert pool[table.positive.x :][:3] == [10.0, 100.0, 370.0]
+    assert pool[table.positive.y :][:3] == [1.0, 2.0, 1.0]
+    assert pool[table.negative.y :][:3] == [3.0, 4.0, 3.0]
 
 
 def test_a_modulo_table_over_its_whole_range_gets_no_further_point() -> None:
     leadscrew = Leadscrew((0.0, 360.0), (1.0, 2.0), modulo=True)
-    tables = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY, ModuloRange(), leadscrew=leadscrew),)))
-    assert tables.axis[0].leadscrew.positive.points == 2
+    tables, _ = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY, ModuloRange(), leadscrew=leadscrew),)))
+    assert tables.axis[0].compensation.leadscrew.positive.points == 2
 
 
 @pytest.mark.parametrize(
@@ -130,15 +144,52 @@ def test_a_modulo_table_over_its_whole_range_gets_no_further_point() -> None:
 )
 def test_a_full_rectangular_grid_is_bilinear_and_anything_else_triangles(tests, variant: int) -> None:
     axis = replace(X, crosstalk=crosstalk(*tests))
-    assert compile_tables(Machine((axis,))).axis[0].crosstalk.variant == variant
+    assert compile_tables(Machine((axis,))).tables.axis[0].compensation.crosstalk.variant == variant
 
 
 @settings(max_examples=40)
 @given(machines())
 def test_all_that_lists_can_hold_compiles_to_tables_that_fit(machine: Machine) -> None:
-    tables = compile_tables(machine)
-    assert tables_fit(tables, len(tables.pool))
-    assert all(isinstance(number, float) and math.isfinite(number) for number in tables.pool)
+    tables, pool = compile_tables(machine)
+    assert tables_fit(tables, pool, len(pool))
+    assert all(isinstance(number, float) and math.isfinite(number) for number in pool)
+
+
+@settings(max_examples=20)
+@given(machines())
+def test_the_pool_is_cut_into_the_numbers_of_each_axis(machine: Machine) -> None:
+    tables, pool = compile_tables(machine)
+    at = 0
+    for axis in tables.axis[: tables.axis_count]:
+        assert axis.first == at
+        at += axis.numbers
+    assert at == len(pool)
+
+
+def test_an_axis_lists_the_kinds_that_it_activates_with_or_without_a_table() -> None:
+    axis = replace(X, friction=Friction(*CURVE), cross=Cross(1, *CURVE, max_points=77), reserved={"plane": 100})
+    table = compile_tables(Machine((axis,))).tables.axis[0]
+    assert table.kind[: table.kinds] == [CROSS, PLANE_KIND, FRICTION]
+    assert [switching.reserved for switching in table.switching] == [77, 100, 0, 0, 0, 0, 20]
+    assert [switching.configured for switching in table.switching] == [True, False, False, False, False, False, True]
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "start"), [(0.0, 10.0, -175.0), (-90.0, 90.0, -180.0), (350.0, 370.0, 180.0), (7.0, 7.0, -173.0)]
+)
+def test_the_position_of_a_modulo_axis_is_folded_into_the_turn_centred_on_the_table(
+    first: float, last: float, start: float
+) -> None:
+    positions = (first, last) if last > first else (first,)
+    slave = Axis(2, "Y", cross=Cross(1, positions, tuple(0.0 for _ in positions)))
+    tables, _ = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY, ModuloRange()), slave)))
+    master = tables.axis[1].compensation.cross.master
+    assert (master.start, master.period) == (start, 360.0)
+
+
+def test_the_position_of_an_axis_that_does_not_count_modulo_is_not_folded() -> None:
+    tables, _ = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY), Axis(2, "Y", cross=Cross(1, *CURVE)))))
+    assert tables.axis[1].compensation.cross.master.period == 0.0
 
 
 def test_the_largest_machine_compiles() -> None:
@@ -151,7 +202,10 @@ def test_the_largest_machine_compiles() -> None:
         plane=Plane(1, 1, 0.0, 0.0, 1.0, 1.0, grid),
         crosstalk=CrosstalkCurve(1, *CURVE),
         leadscrew=Leadscrew(line, line, line),
+        temperature=Temperature(100.0, 0.01, 1e-5, 20),
+        backlash=Backlash(0.01, 2),
         friction=Friction(line[:20], line[:20], delay_cycles=248),
     )
-    tables = compile_tables(Machine(tuple(replace(axis, number=i, name=f"A{i}") for i in range(1, 33))))
-    assert tables_fit(tables, len(tables.pool))
+    tables, pool = compile_tables(Machine(tuple(replace(axis, number=i, name=f"A{i}") for i in range(1, 33))))
+    assert tables_fit(tables, pool, len(pool))
+    assert [table.kinds for table in tables.axis] == [7] * 32

@@ -9,11 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.crosstalk import CrosstalkCurve
-from axcomp.kinds.friction import Friction
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kernel.compensations import BACKLASH, CROSS, CROSSTALK, FRICTION, LEADSCREW, PLANE, TEMPERATURE
+from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import CompileError
 from axcomp.runtime.runtime import Runtime, SnapshotError, UpdateError
@@ -23,13 +20,13 @@ X = Axis(
     1,
     "X",
     backlash_cycles=6,
-    leadscrew=Leadscrew(LINE, tuple(0.01 * np.sin(LINE)), tuple(0.01 * np.cos(LINE))),
+    leadscrew=Leadscrew(LINE, tuple((0.01 * np.sin(LINE)).tolist()), tuple((0.01 * np.cos(LINE)).tolist())),
     friction=Friction((1.0, 100.0), (1.0, 3.0), 1.0, 0.01, 2, 4),
 )
 Z = Axis(
     3,
     "Z",
-    cross=Cross(1, LINE, tuple(0.1 * np.cos(LINE)), 10),
+    cross=Cross(1, LINE, tuple((0.1 * np.cos(LINE)).tolist()), 10),
     plane=Plane(1, 1, -50.0, 0.0, 25.0, 1.0, ((0.1, 0.2, -0.1, 0.0, 0.3),), 5),
     crosstalk=CrosstalkCurve(1, (-1e3, 1e3), (-0.01, 0.01), 5),
 )
@@ -43,9 +40,9 @@ def move(runtime: Runtime, k: int) -> None:
         axis.setpoint = 40.0 * np.clip(np.sin(phase), -0.9, 0.9).item()
         axis.velocity = 2e3 * np.cos(phase).item() if abs(np.sin(phase)) < 0.9 else 0.0
         axis.acceleration = -1e5 * np.sin(phase).item()
-        axis.cross_enable = (k // 40) % 2 == 0
+        axis.enable[CROSS] = (k // 40) % 2 == 0
         axis.no_move = (k // 60) % 2 == 0
-        axis.leadscrew_enable = (k // 25) % 3 < 2
+        axis.enable[LEADSCREW] = (k // 25) % 3 < 2
 
 
 def run(runtime: Runtime, first: int, last: int) -> list[str]:
@@ -214,23 +211,25 @@ def test_two_runtimes_of_one_machine_share_nothing(machine: Machine, seed: int) 
 
 
 class TestUpdate:
-    def test_the_new_values_count_from_the_next_cycle_on(self) -> None:
+    def test_the_new_values_count_from_the_next_cycle_on_and_come_in_over_n_cycles(self) -> None:
         runtime = Runtime(MACHINE)
         run(runtime, 0, 20)
-        held = runtime.outputs.axis[1].cross_correction
+        held = runtime.outputs.axis[1].contribution[CROSS]
         twice = replace(Z, cross=replace(Z.cross, corrections=tuple(2 * c for c in Z.cross.corrections)))
         assert runtime.update(Machine((X, twice))) == {}
-        assert runtime.outputs.axis[1].cross_correction == held
-        runtime.cycle()
-        assert runtime.outputs.axis[1].cross_correction == pytest.approx(2 * held)
+        assert runtime.outputs.axis[1].contribution[CROSS] == held
+        values = []
+        for _ in range(12):
+            runtime.cycle()
+            values.append(runtime.outputs.axis[1].contribution[CROSS])
+        old = np.sin(np.pi / 2 * np.clip(np.arange(9, -3, -1), 0, 10) / 10) ** 2
+        assert values == pytest.approx(2 * held - old * held, abs=1e-15)
 
     def test_an_update_with_the_same_lists_changes_nothing(self) -> None:
         one, other = Runtime(MACHINE), Runtime(MACHINE)
         for k in range(0, 200, 8):  # in mid-ramp, in reversals, with a shift waiting
             assert run(one, k, k + 8) == run(other, k, k + 8)
-            # a reversal that is under way is finished at once, so only update when none is
-            if other.state.axis[0].leadscrew.reversal_step in (0, X.backlash_cycles):
-                other.update(Machine((X, Z)))
+            other.update(Machine((X, Z)))
 
     def test_shorter_tables_are_searched_from_the_front(self) -> None:
         long = Cross(1, tuple(float(i) for i in range(1000)), tuple(0.0 for _ in range(1000)))
@@ -240,7 +239,7 @@ class TestUpdate:
         runtime.update(Machine((Axis(1, "X"), Axis(3, "Z", cross=replace(long, positions=LINE, corrections=LINE)))))
         runtime.inputs.axis[0].setpoint = 5.0
         runtime.cycle()
-        assert runtime.outputs.axis[1].cross_correction == 5.0
+        assert runtime.outputs.axis[1].contribution[CROSS] == 5.0
 
     def test_another_look_ahead_finds_a_state_that_fits(self) -> None:
         for before in range(5):
@@ -256,21 +255,42 @@ class TestUpdate:
                 currents = []
                 for _ in range(9):
                     runtime.cycle()
-                    currents.append(runtime.outputs.axis[0].current)
+                    currents.append(runtime.outputs.axis[0].contribution[FRICTION])
                 assert all(-1.0 <= current <= 1.0 for current in currents)
 
     def test_a_ramp_goes_on_with_its_new_length(self) -> None:
+        # 6 of 10 steps are 2 of 3: the ramp goes on where it is, not from its end
         runtime = Runtime(MACHINE)
         runtime.cycle()
-        runtime.inputs.axis[1].cross_enable = False
+        runtime.inputs.axis[1].enable[CROSS] = False
         for _ in range(4):
             runtime.cycle()
         runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, n_cycles=3)))))
         weights = []
         for _ in range(4):
             runtime.cycle()
-            weights.append(runtime.outputs.axis[1].cross_correction / (0.1 * np.cos(0.0)))
-        assert weights == pytest.approx([0.75, 0.25, 0.0, 0.0])
+            weights.append(runtime.outputs.axis[1].contribution[CROSS] / (0.1 * np.cos(0.0)))
+        assert weights == pytest.approx([0.25, 0.0, 0.0, 0.0], abs=1e-15)
+
+    @pytest.mark.parametrize("up", [False, True])
+    @pytest.mark.parametrize("after", [1, 2, 3, 7, 9, 10, 11, 20])
+    @pytest.mark.parametrize("steps", range(11))
+    def test_a_ramp_that_is_under_way_keeps_its_weight(self, steps: int, after: int, up: bool) -> None:
+        runtime = Runtime(MACHINE)
+        runtime.inputs.axis[1].enable[CROSS] = not up
+        runtime.cycle()
+        runtime.inputs.axis[1].enable[CROSS] = up
+        for _ in range(steps):
+            runtime.cycle()
+        at = steps if up else 10 - steps
+        runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, n_cycles=after)))))
+        nearest = np.floor(at * after / 10 + 0.5)
+        expected = np.clip(nearest + (1 if up else -1) * np.arange(1, 23), 0, after)
+        weights = []
+        for _ in range(22):
+            runtime.cycle()
+            weights.append(runtime.outputs.axis[1].contribution[CROSS] / 0.1)
+        assert weights == pytest.approx(np.sin(np.pi / 2 * expected / after) ** 2, abs=1e-12)
 
     def test_what_is_on_stays_at_full_weight_and_switches_off_over_its_new_length(self) -> None:
         for cycles in (3, 20):
@@ -279,22 +299,55 @@ class TestUpdate:
             runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, n_cycles=cycles)))))
             weights = []
             for k in range(cycles + 3):
-                runtime.inputs.axis[1].cross_enable = k < 2
+                runtime.inputs.axis[1].enable[CROSS] = k < 2
                 runtime.cycle()
-                weights.append(runtime.outputs.axis[1].cross_correction / (0.1 * np.cos(0.0)))
+                weights.append(runtime.outputs.axis[1].contribution[CROSS] / (0.1 * np.cos(0.0)))
             k = np.clip(np.append([cycles, cycles], np.arange(cycles - 1, -2, -1)), 0, cycles)
             assert weights == pytest.approx(np.sin(np.pi / 2 * k / cycles) ** 2)
 
-    def test_what_no_longer_exists_is_off_at_once_and_the_rest_is_as_it_was(self) -> None:
-        runtime = Runtime(MACHINE)
+    def test_a_table_that_is_dropped_runs_out_and_the_rest_is_as_it_was(self) -> None:
+        runtime, other = Runtime(MACHINE), Runtime(MACHINE)
         run(runtime, 0, 30)
+        run(other, 0, 30)
         before = copy.deepcopy(runtime.outputs.axis[1])
         runtime.update(Machine((X, replace(Z, cross=None))))
-        after = runtime.outputs.axis[1]
-        assert (after.cross_correction, after.cross_active) == (0.0, False)
-        assert (after.plane_correction, after.plane_active) == (before.plane_correction, True)
+        after, kept = runtime.outputs.axis[1], other.outputs.axis[1]
+        assert after == before
+        for k in range(15):
+            for one in (runtime, other):
+                move(one, 30 + k)
+                one.cycle()
+            rest = np.sin(np.pi / 2 * max(9 - k, 0) / 10) ** 2 * before.contribution[CROSS]
+            assert after.contribution[CROSS] == pytest.approx(rest, abs=1e-15)
+            assert not after.active[CROSS]
+            assert after.contribution[PLANE] == kept.contribution[PLANE]
+            assert after.correction == pytest.approx(rest + kept.contribution[PLANE] + kept.contribution[CROSSTALK])
+        assert after.contribution[CROSS] == 0.0
+
+    def test_a_table_that_is_dropped_where_it_corrects_nothing_is_off(self) -> None:
+        zero = replace(Z, cross=Cross(1, (0.0, 10.0), (0.0, 1.0), 10))
+        runtime = Runtime(Machine((X, zero)))
         runtime.cycle()
-        assert after.correction == pytest.approx(after.plane_correction + after.crosstalk_correction)
+        assert runtime.outputs.axis[1].active[CROSS]
+        runtime.update(Machine((X, replace(Z, cross=None))))
+        runtime.cycle()
+        assert not runtime.outputs.axis[1].active[CROSS]
+
+    def test_a_current_is_gone_at_once(self) -> None:
+        runtime = Runtime(MACHINE)
+        runtime.inputs.axis[0].velocity = 5.0
+        for _ in range(10):
+            runtime.cycle()
+        runtime.inputs.axis[0].setpoint = 1.0
+        for _ in range(10):
+            runtime.cycle()
+        assert runtime.outputs.axis[0].contribution[FRICTION] != 0.0
+        runtime.update(Machine((replace(X, friction=None), Z)))
+        runtime.cycle()
+        assert (runtime.outputs.axis[0].contribution[FRICTION], runtime.outputs.axis[0].active[FRICTION]) == (
+            0.0,
+            False,
+        )
 
     @pytest.mark.parametrize(
         ("kind", "error"), [("leadscrew", 110638), ("cross", 110639), ("plane", 110640), ("friction", 110641)]
@@ -335,6 +388,157 @@ class TestUpdate:
         assert runtime.save() == before
         assert runtime.machine is MACHINE
 
+    def test_an_update_can_be_undone_and_tables_can_come_and_go(self) -> None:
+        # judged against what was declared at the start, never against the lists in force
+        runtime = Runtime(MACHINE)
+        without = Machine((replace(X, leadscrew=None), replace(Z, plane=None, cross=None)))
+        for new in (without, MACHINE, Machine((X, replace(Z, cross=None))), without, MACHINE):
+            assert runtime.update(new) == {}
+            run(runtime, 0, 30)
+        assert all(runtime.outputs.axis[1].active[kind] for kind in (PLANE, CROSSTALK))
+
+    def test_max_points_is_judged_against_the_start_after_a_table_was_dropped_too(self) -> None:
+        runtime = Runtime(MACHINE)
+        assert runtime.update(Machine((X, replace(Z, cross=None)))) == {}
+        larger = replace(Z, cross=replace(Z.cross, max_points=77))
+        assert runtime.update(Machine((X, larger))) == {"Z": 110639}
+        assert runtime.machine.axes[1].cross is None
+        assert runtime.update(MACHINE) == {}
+        assert runtime.machine == MACHINE
+
+    def test_a_table_may_come_for_a_kind_that_was_activated_without_one(self) -> None:
+        runtime = Runtime(Machine((X, replace(Z, cross=None, reserved={"cross": 1001}))))
+        runtime.cycle()
+        assert runtime.inputs.axis[1].enable[CROSS]
+        assert (runtime.outputs.axis[1].contribution[CROSS], runtime.outputs.axis[1].active[CROSS]) == (0.0, False)
+        assert runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, max_points=1000))))) == {"Z": 110639}
+        assert runtime.update(MACHINE) == {}
+        weights = []
+        for _ in range(12):
+            runtime.cycle()
+            weights.append(runtime.outputs.axis[1].contribution[CROSS] / 0.1)
+        k = np.clip(np.arange(1, 13), 0, 10)
+        assert weights == pytest.approx(np.sin(np.pi / 2 * k / 10) ** 2)
+
+    def test_a_kind_that_was_not_activated_is_refused_even_after_other_updates(self) -> None:
+        runtime = Runtime(Machine((X, replace(Z, cross=None))))
+        runtime.update(Machine((replace(X, backlash_cycles=2), replace(Z, cross=None))))
+        with pytest.raises(UpdateError, match="axis Z a compensation"):
+            runtime.update(MACHINE)
+
+    def test_new_values_of_leadscrew_and_backlash_come_in_over_the_backlash_cycles(self) -> None:
+        old = Axis(1, "X", backlash_cycles=6, leadscrew=Leadscrew((0.0,), (-0.5,)), backlash=Backlash(0.25, 2))
+        new = replace(old, leadscrew=Leadscrew((0.0,), (-0.75,)), backlash=Backlash(-0.125, 2))
+        w = np.sin(np.pi / 2 * np.array([5, 4, 3, 2, 1, 0, 0]) / 6) ** 2
+        for cycles, rest in ((6, w), (1, 0.0 * w), (0, 0.0 * w)):
+            runtime = Runtime(Machine((replace(old, backlash_cycles=cycles),)))
+            for k in range(10):
+                runtime.inputs.axis[0].setpoint = float(k)
+                runtime.cycle()
+            assert runtime.outputs.axis[0].contribution[LEADSCREW : BACKLASH + 1] == [0.5, 0.25]
+            runtime.update(Machine((replace(new, backlash_cycles=cycles),)))
+            values = []
+            for _ in range(7):
+                runtime.cycle()
+                values.append(runtime.outputs.axis[0].contribution[LEADSCREW : BACKLASH + 1])
+            assert np.array(values)[:, 0] == pytest.approx(0.75 - 0.25 * rest, abs=1e-15)
+            assert np.array(values)[:, 1] == pytest.approx(-0.125 + 0.375 * rest, abs=1e-15)
+
+    def test_what_blends_in_while_more_comes_is_continuous(self) -> None:
+        # values 0.1, then 0.3, then 0.2 while the second blend is under way
+        def lists(value: float) -> Machine:
+            return Machine((X, replace(Z, cross=Cross(1, (0.0,), (value,), 10))))
+
+        runtime = Runtime(lists(0.1))
+        runtime.cycle()
+        values = []
+        for k in range(20):
+            if k in (0, 4):
+                runtime.update(lists(0.3 if k == 0 else 0.2))
+            runtime.cycle()
+            values.append(runtime.outputs.axis[1].contribution[CROSS])
+
+        def w(step: int) -> float:
+            return float(np.sin(np.pi / 2 * max(step, 0) / 10) ** 2)
+
+        first = [0.3 - 0.2 * w(9 - k) for k in range(4)]
+        second = [0.2 + (first[-1] - 0.2) * w(9 - k) for k in range(16)]
+        assert values == pytest.approx(first + second, abs=1e-15)
+
+    def test_an_update_in_motion_blends_the_difference_where_the_axis_is(self) -> None:
+        # the master moves on while the old slope of 1 becomes one of 2
+        def lists(slope: float) -> Machine:
+            return Machine((X, replace(Z, cross=Cross(1, (0.0, 50.0), (0.0, 50.0 * slope), 10))))
+
+        runtime = Runtime(lists(1.0))
+        values = []
+        for k in range(25):
+            runtime.inputs.axis[0].setpoint = float(k)
+            if k == 8:
+                runtime.update(lists(2.0))
+            runtime.cycle()
+            values.append(runtime.outputs.axis[1].contribution[CROSS])
+        k = np.arange(8, 25)
+        rest = np.sin(np.pi / 2 * np.clip(17 - k, 0, 10) / 10) ** 2
+        assert values == pytest.approx([*range(8), *(2.0 * k - 7.0 * rest)], abs=1e-12)
+
+    def test_a_release_of_a_shift_that_is_under_way_stays_where_it_is(self) -> None:
+        lists = Machine((X, replace(Z, backlash_cycles=20)))
+        runtime = Runtime(lists)
+        axis = runtime.inputs.axis[1]
+        axis.no_move = True
+        runtime.cycle()
+        axis.enable[CROSS] = False
+        runtime.cycle()
+        for k in range(6):
+            axis.setpoint = 1.0 + k
+            runtime.cycle()
+        w = np.sin(np.pi / 2 * np.arange(21) / 20) ** 2
+        assert runtime.outputs.axis[1].setpoint_shift == pytest.approx(0.1 * w[14])
+        runtime.update(Machine((X, Z)))  # whose longest transition takes 10 cycles: 14 of 20 steps are 7 of 10
+        shifts = []
+        for _ in range(9):
+            runtime.cycle()
+            shifts.append(runtime.outputs.axis[1].setpoint_shift)
+        new = np.sin(np.pi / 2 * np.clip(np.arange(6, -3, -1), 0, 10) / 10) ** 2
+        assert shifts == pytest.approx(0.1 * new, abs=1e-15)
+
+    @pytest.mark.parametrize("cycles", [3, 7, 20])
+    def test_a_release_that_finds_no_step_of_its_weight_does_not_jump(self, cycles: int) -> None:
+        runtime = Runtime(MACHINE)
+        axis = runtime.inputs.axis[1]
+        axis.no_move = True
+        runtime.cycle()
+        axis.enable[CROSS] = False
+        runtime.cycle()
+        axis.setpoint = 1.0
+        for _ in range(4):
+            runtime.cycle()
+        slower = replace(Z, cross=None, plane=None, crosstalk=None, backlash_cycles=cycles)
+        at = runtime.outputs.axis[1].setpoint_shift
+        runtime.update(Machine((X, slower)))
+        shifts = [at]
+        for _ in range(cycles + 1):
+            runtime.cycle()
+            shifts.append(runtime.outputs.axis[1].setpoint_shift)
+        step = max(np.diff(np.sin(np.pi / 2 * np.arange(cycles + 1) / cycles) ** 2))
+        assert (np.diff(shifts) <= 0.0).all()
+        assert np.abs(np.diff(shifts)).max() <= 1.3 * 0.1 * step
+        assert shifts[-1] == 0.0
+
+    def test_a_temperature_table_that_is_moved_blends_in(self) -> None:
+        old = Axis(1, "X", temperature=Temperature(0.0, 0.1, 1e-3, 4))
+        runtime = Runtime(Machine((old,)))
+        runtime.inputs.axis[0].setpoint = 50.0
+        runtime.cycle()
+        runtime.update(Machine((replace(old, temperature=Temperature(100.0, 0.1, 1e-3, 4)),)))
+        values = []
+        for _ in range(5):
+            runtime.cycle()
+            values.append(runtime.outputs.axis[0].contribution[TEMPERATURE])
+        w = np.sin(np.pi / 2 * np.array([3, 2, 1, 0, 0]) / 4) ** 2
+        assert values == pytest.approx(0.05 + 0.1 * w, abs=1e-15)
+
     def test_a_machine_that_cannot_run_is_refused_as_a_whole(self) -> None:
         runtime = Runtime(MACHINE)
         run(runtime, 0, 30)
@@ -365,7 +569,7 @@ def test_inputs_begin_referenced_and_enabled_where_activation_is_automatic() -> 
     manual = replace(Z, plane=replace(Z.plane, manual_activation=True))
     inputs = Runtime(Machine((X, manual))).inputs
     flags = [
-        (a.referenced, a.cross_enable, a.plane_enable, a.crosstalk_enable, a.leadscrew_enable, a.friction_enable)
+        (a.referenced, a.enable[CROSS], a.enable[PLANE], a.enable[CROSSTALK], a.enable[LEADSCREW], a.enable[FRICTION])
         for a in inputs.axis
     ]
     assert flags == [(True, False, False, False, True, True), (True, True, False, True, False, False)]

@@ -55,6 +55,7 @@ def test_the_command_writes_both_files_and_checks_them(tmp_path: Path, capsys: p
 def test_the_command_prints_every_refusal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = "def cycle(x: float) -> float:\n    y = x ** 2.0\n    return [y]\n"
     folder = write_package(tmp_path / "kernel", {"cycle": text})
+    (folder / "__init__.py").write_text('EXPORTS = ("cycle", "adopt")\n')
     assert main(["--kernel", str(folder), "--output", str(tmp_path)]) == 1
     complaints = capsys.readouterr().err
     assert "no module here defines the exported function adopt" in complaints

@@ -16,6 +16,7 @@ from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at, find_cell
 from axcomp.model.machine import ModuloRange
 from axcomp.model.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation
+from axcomp.runtime.compile import compile_tables
 from axcomp.runtime.runtime import Runtime
 
 Array = NDArray[np.float64]
@@ -143,13 +144,6 @@ def test_a_table_over_a_full_turn_is_periodic_wherever_it_starts(first: float, m
     assert evaluate_modulo(rotary_table(nodes), q, modulo) == pytest.approx(expected, abs=1e-12)
 
 
-def test_a_partial_table_on_an_axis_that_counts_modulo_is_met_in_the_turn_around_it() -> None:
-    nodes = np.array([-90.0, 0.0, 90.0])
-    q = np.array([350.0, 450.0, -270.0, 179.0, 181.0])
-    expected = np.interp([-10.0, 90.0, 90.0, 90.0, -90.0], nodes, angle(nodes))
-    assert evaluate_modulo(rotary_table(nodes), q, ModuloRange()) == pytest.approx(expected, abs=1e-12)
-
-
 @pytest.mark.parametrize("modulo", [None, ModuloRange()])
 def test_scattered_records_over_angles_are_as_near_as_they_are_round_the_circle(modulo: ModuloRange | None) -> None:
     nodes = np.array([0.0, 80.0, 170.0, 350.0])
@@ -164,6 +158,37 @@ def test_a_table_over_less_than_a_full_turn_is_not_folded() -> None:
     one = rotary_table(np.array([-90.0, 0.0, 90.0]))
     found = evaluate([one], np.array([[270.0], [-90.0], [90.0], [-400.0]]), "C")[:, 0]
     assert found.tolist() == [one.values[2], one.values[0], one.values[2], one.values[0]]
+
+
+@pytest.mark.parametrize(
+    ("nodes", "start"),
+    [((-90.0, 0.0, 90.0), -180.0), ((0.0, 90.0, 300.0), -30.0), ((350.0, 360.0, 370.0), 180.0), ((-30.0,), -210.0)],
+)
+def test_on_a_modulo_axis_it_is_folded_into_the_turn_centred_on_it(nodes: tuple[float, ...], start: float) -> None:
+    one = rotary_table(np.array(nodes))
+    machine = machine_of(volumetric("XYZABC", errors=(one,)))
+    axes = tuple(replace(a, modulo=ModuloRange(0.0, 360.0)) if a.name == "C" else a for a in machine.axes)
+    tables, pool = compile_tables(replace(machine, axes=axes))
+    q = np.array([*nodes, 350.0, 450.0, -270.0, 89.0, 179.0, 181.0, 720.5, -359.5])
+    found = []
+    for c in q.tolist():
+        errors = zeros(len(ERRORS))
+        errors_at(pool, tables.volumetric[0], [0.0, 0.0, 0.0, 0.0, 0.0, c], [0] * len(ERRORS), errors)
+        found.append(errors[ERRORS.index("EXC")])
+    folded = (q - start) % 360.0 + start
+    assert found == pytest.approx(np.interp(folded, nodes, one.values), abs=1e-13)
+    if len(nodes) > 1:
+        assert found[len(nodes) + 1] == found[len(nodes) + 2]  # 450° and −270°
+
+
+@pytest.mark.parametrize("first", [-180.0, -90.0, 0.0, 30.0])
+def test_a_table_over_a_full_turn_is_folded_from_its_first_point_whatever_the_axis_counts(first: float) -> None:
+    nodes = first + np.arange(0.0, 361.0, 40.0)
+    values = np.linspace(-0.01, 0.02, 10)
+    one = table("EXC", "C", nodes[:, None], values, Interpolation.GRID)
+    q = np.array([first, first + 359.0, first + 361.0, first - 1.0, 1234.5, -777.0])
+    found = evaluate([one], q[:, None], "C")[:, 0]
+    assert found == pytest.approx(np.interp((q - first) % 360.0 + first, nodes, values), abs=1e-12)
 
 
 def test_linear_positions_are_never_folded() -> None:

@@ -17,7 +17,7 @@ from scipy.special import ndtri
 
 from ...engine.motion import Array
 from ...fit.hats import hats
-from ...kinds.tables import tables_of
+from ...kinds import tables_of
 from ...model.machine import AxisType
 from ...model.quantity import shown
 from ...model.volumetric import ERRORS, LETTERS, LINEAR

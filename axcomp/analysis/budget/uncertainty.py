@@ -24,8 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...kinds import KINDS
-from ...kinds.tables import tables_of
+from ...kinds import KINDS, tables_of
 from ...lists.grammar import decode
 from ...model.machine import AxisType, Machine
 from ...model.volumetric import ERRORS, Interpolation, is_angle

@@ -3,19 +3,25 @@
 All of it works on the machine alone, with NumPy; pictures need Matplotlib.
 """
 
-from .coverage import Coverage
-from .dynamics import Demand, DynamicsResult
-from .judge import Judgement, judge
-from .limits import LargestCorrection
-from .sign import SignResult, sign_of
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Coverage",
-    "Demand",
-    "DynamicsResult",
-    "Judgement",
-    "LargestCorrection",
-    "SignResult",
-    "judge",
-    "sign_of",
-]
+from ...model.face import face
+
+if TYPE_CHECKING:
+    from .coverage import Coverage as Coverage
+    from .dynamics import Demand as Demand
+    from .dynamics import DynamicsResult as DynamicsResult
+    from .judging import Judgement as Judgement
+    from .judging import judge as judge
+    from .limits import LargestCorrection as LargestCorrection
+    from .sign import SignResult as SignResult
+    from .sign import sign_of as sign_of
+
+__all__, __getattr__, __dir__ = face(
+    __name__,
+    coverage="Coverage",
+    dynamics="Demand DynamicsResult",
+    judging="Judgement judge",
+    limits="LargestCorrection",
+    sign="SignResult sign_of",
+)

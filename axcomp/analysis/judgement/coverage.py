@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ...engine.motion import Array
+from ...kinds import tables_of
 from ...kinds.shown import ACCELERATION, POSITION
-from ...kinds.tables import tables_of
 from ...lists import Position
 from ...lists.findings import Findings
 from ...model.machine import Axis, AxisType, Machine

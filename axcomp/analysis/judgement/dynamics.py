@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engine.motion import Array
-from ...kinds.tables import tables_of
+from ...kinds import tables_of
 from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
 from ...model.quantity import shown, symbol

@@ -15,18 +15,17 @@ import numpy as np
 import numpy.typing as npt
 
 from ...engine.motion import Array
-from ...kinds.tables import Tables, tables_of
+from ...kinds import Tables, tables_of
 from ...lists.findings import Findings
 from ...model.curve import Curve
 from ...model.grid import Grid
 from ...model.machine import Machine
 from ...model.quantity import Quantity
+from .judging import JUDGED_LEAST
 from .positions import Positions
 
 Indices = npt.NDArray[np.intp]
 
-JUDGED_LEAST = 7
-"""Points with neighbours on both sides that are needed: an outlier is in three distances of the median."""
 SIGMAS = 6.0
 """Distance from the neighbours that makes an outlier, in standard deviations by the median."""
 SIGMA_OF_MEDIAN = 1.4826
@@ -78,7 +77,7 @@ def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
     n = len(x)
     distance, score = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
     at = np.arange(2, n - 2)
-    if len(at) >= JUDGED_LEAST:
+    if n >= JUDGED_LEAST:
         lines = np.stack(
             [y[at] - _line(x, y, a, b, at) for a, b in ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))]
         )

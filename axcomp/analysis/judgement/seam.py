@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ...kinds.tables import tables_of
+from ...kinds import tables_of
 from ...lists.findings import Findings
 from ...model.curve import Curve
 from ...model.machine import Machine, ModuloRange

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engine.motion import Array
-from ...kinds.tables import Tables, tables_of
+from ...kinds import Tables, tables_of
 from ...lists.findings import Findings
 from ...measurement.iso230 import Iso230Result, evaluate
 from ...measurement.positioning import Positioning

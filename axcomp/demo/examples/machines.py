@@ -9,11 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
-from ...kinds.cross import Cross
-from ...kinds.crosstalk import Crosstalk, CrosstalkCurve, CrosstalkTest
-from ...kinds.friction import Friction
-from ...kinds.leadscrew import Leadscrew
-from ...kinds.plane import Plane
+from ...kinds import Cross, Crosstalk, CrosstalkCurve, CrosstalkTest, Friction, Leadscrew, Plane
 from ...model.machine import Axis, AxisType, Machine, ModuloRange
 from ...plant.machine import Plant
 from ...plant.simulated import acceleration_test, flatness, friction_current, positioning, straightness

@@ -8,8 +8,7 @@ import pytest
 from axcomp import read_machine
 from axcomp.analysis.budget.contributions import Budget, budget_of
 from axcomp.engine.trajectory import InputFile, read_input
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, AxisType, Machine
 from axcomp.model.volumetric import ERRORS, ErrorTable, Volumetric

@@ -10,7 +10,7 @@ from axcomp.analysis.budget.contributions import budget_of
 from axcomp.analysis.budget.propagation import tcp_uncertainty
 from axcomp.analysis.budget.uncertainty import Uncertainty
 from axcomp.engine.trajectory import InputFile, read_input
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, AxisType, Machine
 from axcomp.model.volumetric import ErrorTable, Volumetric

@@ -9,9 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from axcomp.analysis.judgement import Judgement, judge
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
-from axcomp.kinds.plane import Plane
+from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import read_machine
 from axcomp.measurement.positioning import Positioning
 from axcomp.model.companions import models

@@ -9,7 +9,7 @@ from judging import codes, cross_machine, example, judge, plane_machine, said, t
 from axcomp.analysis.judgement.limits import largest_corrections
 from axcomp.engine.engine import Engine
 from axcomp.engine.trajectory import read_input
-from axcomp.kinds.crosstalk import CrosstalkCurve
+from axcomp.kinds import CrosstalkCurve
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange

@@ -8,8 +8,7 @@ from axcomp.analysis.judgement import Demand
 from axcomp.analysis.judgement.dynamics import dynamics_of, ramp_rates
 from axcomp.analysis.judgement.seam import seam_of
 from axcomp.engine.engine import Engine
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.tables import tables_of
+from axcomp.kinds import Cross, tables_of
 from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 
 FEED = Demand({"": 500.0})

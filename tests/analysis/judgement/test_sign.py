@@ -9,8 +9,7 @@ from judging import THREE_AXIS, codes, example, judge, leadscrew_machine, measur
 
 from axcomp.analysis.judgement import sign_of
 from axcomp.convert.machines import tables_of
-from axcomp.kinds.cross import Cross
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Cross, Leadscrew
 from axcomp.lists import read_machine
 from axcomp.measurement.positioning import Positioning
 from axcomp.model.machine import Axis, AxisType, Machine

@@ -17,7 +17,7 @@ from host_trajectory import motion, write_trajectory
 from axcomp.bench.machines import machine_of
 from axcomp.interface.variable import BLOCK
 from axcomp.kernel.records import ERROR_UPDATE
-from axcomp.kinds.leadscrew import Leadscrew
+from axcomp.kinds import Leadscrew
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Machine

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ...engine.motion import Array
+from ...kinds import tables_of
 from ...lists import Finding, Reading
 from ...lists.findings import Findings
-from ...measurement.positioning import Positioning
 from ...model.machine import Machine
-from .coverage import Coverage, judge_coverage
-from .dynamics import Demand, DynamicsResult, judge_dynamics
-from .limits import LargestCorrection, judge_limits
-from .outliers import judge_outliers
 from .positions import Positions
 from .seam import judge_seams
-from .sign import SignResult, judge_signs
+
+if TYPE_CHECKING:
+    from ...engine.motion import Array
+    from ...measurement.positioning import Positioning
+    from .coverage import Coverage
+    from .dynamics import Demand, DynamicsResult
+    from .limits import LargestCorrection
+    from .sign import SignResult
+
+JUDGED_LEAST = 11
+"""Fewest points of a table that is judged: 7 have two neighbours on both sides, and an outlier disturbs 3 of them."""
 
 
 @dataclass(frozen=True)
@@ -82,11 +87,40 @@ def judge(
         A measurement or a trajectory does not belong to the machine.
     """
     positions, findings = Positions(reading), Findings()
-    judge_outliers(machine, positions, findings)
+    signs: list[SignResult] = []
+    dynamics: list[DynamicsResult] = []
+    coverage: list[Coverage] = []
+    limits: list[LargestCorrection] = []
+    # A small machine is judged without what the rest needs: NumPy takes longer to load than its lists to read.
+    if _has_large_tables(machine):
+        from .outliers import judge_outliers
+
+        judge_outliers(machine, positions, findings)
     judge_seams(machine, positions, findings)
-    limits = judge_limits(machine, positions, findings, tool_length)
-    signs = judge_signs(machine, measurements, positions, findings)
-    dynamics = [] if demand is None else judge_dynamics(machine, demand, positions, findings)
-    coverage = [] if trajectory is None else judge_coverage(machine, trajectory, positions, findings)
+    if machine.volumetric:
+        from .limits import judge_limits
+
+        limits = judge_limits(machine, positions, findings, tool_length)
+    if measurements:
+        from .sign import judge_signs
+
+        signs = judge_signs(machine, measurements, positions, findings)
+    if demand is not None:
+        from .dynamics import judge_dynamics
+
+        dynamics = judge_dynamics(machine, demand, positions, findings)
+    if trajectory is not None:
+        from .coverage import judge_coverage
+
+        coverage = judge_coverage(machine, trajectory, positions, findings)
     said = findings.all() if reading is None else reading.located(findings.all())
     return Judgement(said, tuple(signs), tuple(dynamics), tuple(coverage), tuple(limits))
+
+
+def _has_large_tables(machine: Machine) -> bool:
+    """Tell whether a table has enough values along a side to judge one of them by the others."""
+    for tables in tables_of(machine):
+        sides = [curve.x for curve in tables.curves] + [side for grid in tables.grids for side in (grid.x, grid.y)]
+        if any(len(side) >= JUDGED_LEAST for side in sides):
+            return True
+    return False
