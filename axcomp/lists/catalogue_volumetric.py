@@ -61,9 +61,7 @@ VOLUMETRIC = (
         _id(14),
         values=_MODES,
     ),
-    Parameter(
-        "enable_splicing", "Repeats the first record of a turn at its end", DataType.BOOLEAN, 0, _id(15)
-    ),
+    Parameter("enable_splicing", "Repeats the first record of a turn at its end", DataType.BOOLEAN, 0, _id(15)),
     Parameter("diagnosis_file", "Spreadsheet of all records that is written", DataType.STRING, "", _id(16)),
     Parameter("manual_activation", "On only by command", DataType.BOOLEAN, 0, _id(17)),
     Parameter("filter_steps", "Cycles of a switch; 0: at once", DataType.UNS32, 20, _id(18), Quantity.CYCLES),

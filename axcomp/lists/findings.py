@@ -127,6 +127,7 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-VECTOR": (_WARNING, "A direction is not scaled to length 1; it is scaled, or left out if it is 0"),
     "AXC-SINGULAR": (_ERROR, "The directions of X, Y and Z lie in one plane"),
     "AXC-LIMIT": (_ERROR, "An axis to be compensated has no s_limit (P-AXIS-00525)"),
+    "AXC-V-LIMIT": (_WARNING, "An axis to be compensated has no v_limit (P-AXIS-00526)"),
     "AXC-NOT-MODELLED": (_WARNING, "The controller has this function, the model has not"),
     # Judgement of tables that can be read
     "AXC-SIGN": (_INFO, "A table makes a measured error smaller"),

@@ -234,6 +234,7 @@ class VolumetricReader:
 
     def check_limits(self, assigned: dict[str, int]) -> None:
         """Look for the limits that switching on will ask for."""
+        free = []
         for letter in LINEAR:
             for axis in self.axes.all():
                 leader = axis.number if axis.number in assigned.values() else axis.gantry_master
@@ -248,9 +249,12 @@ class VolumetricReader:
                         f"volumetric compensation {self.index} cannot be switched on."
                     )
                     self._note("AXC-LIMIT", letter.lower(), message)
-                if axis.v_limit:
-                    message = f"lr_param.vol_comp.v_limit of axis {axis.number} is not modelled; it limits nothing."
-                    self._note("AXC-NOT-MODELLED", letter.lower(), message)
+                elif not axis.v_limit and not self.axes.invent:
+                    free.append(axis.number)
+        if free:
+            numbers = ", ".join(map(str, sorted(free)))
+            message = f"No lr_param.vol_comp.v_limit for axis {numbers}: nothing but filter_steps slows a switch down."
+            self._note("AXC-V-LIMIT", "filter_steps", message)
 
     def _direction(self, names: tuple[str, ...], parameters: Parameters) -> Triple | None:
         """Return a vector of length 1; None where it is not given or 0."""

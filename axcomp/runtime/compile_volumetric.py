@@ -62,7 +62,7 @@ def compile_volumetric(machine: Machine, tables: Tables, pool: Vec) -> None:
         )
     tables.volumetrics = max(indices, default=-1) + 1
     for volumetric in machine.volumetric:
-        _Compiler(machine, volumetric, tables.volumetric[volumetric.index], pool).compile()
+        _Compiler(machine, volumetric, tables.volumetric[volumetric.index], pool, tables.cycle_time).compile()
 
 
 def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
@@ -91,11 +91,14 @@ def _steepest(error: ErrorTable, d: int) -> float:
 class _Compiler:
     """Fills the tables of one compensation."""
 
-    def __init__(self, machine: Machine, volumetric: Volumetric, table: VolumetricTable, pool: Vec) -> None:
+    def __init__(
+        self, machine: Machine, volumetric: Volumetric, table: VolumetricTable, pool: Vec, cycle_time: float
+    ) -> None:
         self.machine = machine
         self.volumetric = volumetric
         self.table = table
         self.pool = pool
+        self.cycle_time = cycle_time
 
     def compile(self) -> None:
         volumetric, table = self.volumetric, self.table
@@ -139,6 +142,11 @@ class _Compiler:
             table.member_letter[m] = LETTERS.index(letter)
             table.member_limit[m] = self.machine.axes[place].volumetric_limit or 0.0
             table.members = m + 1
+            velocity = self.machine.axes[place].volumetric_velocity
+            if velocity is not None and letter in LINEAR:
+                self._require(velocity > 0.0, "v_limit is above 0")
+                allowed, d = velocity * self.cycle_time, LINEAR.index(letter)
+                table.velocity[d] = min(allowed, table.velocity[d] or allowed)
 
     def _model(self, table: VolumetricTable) -> None:
         volumetric = self.volumetric

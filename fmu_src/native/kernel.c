@@ -1979,18 +1979,14 @@ static bool correction_at(const double *pool, const VolumetricTable *table, cons
  *
  * Switching the volumetric compensations: what is on, with which weight, and what is absorbed without motion.
  *
- * A switch takes `filter_steps` cycles along 10u³ − 15u⁴ + 6u⁵; a change of mind midway turns round where it is. Where
- * an axis must not move, what its correction loses or gains becomes a shift that stays until the next switch (semantics
- * §10).
+ * A switch takes `filter_steps` cycles along 10u³ − 15u⁴ + 6u⁵, more where it would be faster than `v_limit`; a change
+ * of mind midway turns round where it is. Where an axis must not move, what its correction loses or gains becomes a shift.
+ * It is released along the same filter with the axis' next motion, or with the next switch that may move (semantics §10).
  */
 
-/* Return 10u³ − 15u⁴ + 6u⁵, u = step/cycles, 0 ≤ step ≤ cycles: velocity and acceleration are 0 at both ends. */
-static double smooth(int32_t step, int32_t cycles)
+/* Return 10u³ − 15u⁴ + 6u⁵, 0 ≤ u ≤ 1: velocity and acceleration are 0 at both ends. */
+static double smooth(double u)
 {
-    if (step >= cycles) {
-        return 1.0;
-    }
-    double u = (double)step / cycles;
     return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
@@ -2020,52 +2016,79 @@ static void take_command(const VolumetricTable *table, VolumetricState *volumetr
     }
 }
 
+/* Ask all axes that take part to stop, gantry masters and slaves included. */
+static void request_stops(const VolumetricTable *table, State *state)
+{
+    for (int32_t m = 0; m < table->members; m++) {
+        state->axis[table->member[m]].stop_request = true;
+    }
+}
+
 /* Let the correction of X, Y or Z end without motion; it comes back when the compensation is switched on again. */
 static void drop_axis(VolumetricState *volumetric, int32_t letter)
 {
     if (volumetric->taking_part[letter]) {
         volumetric->taking_part[letter] = false;
         volumetric->absorbed[letter] = true;
+        volumetric->waiting[letter] = true;
     }
 }
 
-/* Take out the axes that are in error or have lost their reference; true: there are none. */
-static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs)
+/* Take out the axes that are in error or have lost their reference; true: there are none.
+ *
+ * An error while the compensation is on stops all the others.
+ */
+static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs, State *state)
 {
     bool ready = true;
+    bool failed = false;
     for (int32_t m = 0; m < table->members; m++) {
         const AxisInputs *given = &inputs->axis[table->member[m]];
         if (given->fault || !given->referenced) {
             ready = false;
-            if (given->fault && volumetric->on) {
-                volumetric->command = false;
-            }
+            failed = failed || (given->fault && volumetric->on);
             if (table->member_letter[m] < LINEAR) {
                 drop_axis(volumetric, table->member_letter[m]);
+            }
+        }
+    }
+    if (failed) {
+        volumetric->command = false;
+        request_stops(table, state);
+        for (int32_t m = 0; m < table->members; m++) {
+            if (inputs->axis[table->member[m]].fault) {
+                state->axis[table->member[m]].stop_request = false;
             }
         }
     }
     return ready;
 }
 
-/* Switch off at once; the corrections become shifts. */
-static void stop_without_motion(VolumetricState *volumetric)
+/* Switch off at once; the corrections become shifts. `waiting`: these outlast a motion that is under way. */
+static void stop_without_motion(VolumetricState *volumetric, bool waiting)
 {
     volumetric->on = false;
-    volumetric->step = 0;
+    volumetric->progress = 0.0;
     volumetric->weight = 0.0;
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->absorbed[d] = true;
+        volumetric->waiting[d] = waiting;
     }
 }
 
+/* Begin to take back a shift. */
+static void take_shift_back(VolumetricState *volumetric, int32_t letter)
+{
+    volumetric->held_shift[letter] = volumetric->shift[letter];
+    volumetric->release[letter] = volumetric->shift[letter] != 0.0 ? 1.0 : 0.0;
+}
+
 /* Begin to take back the shifts of the axes that may move, along with this switch. */
-static void release_shifts(const VolumetricTable *table, VolumetricState *volumetric)
+static void release_shifts(VolumetricState *volumetric)
 {
     for (int32_t d = 0; d < LINEAR; d++) {
         if (!volumetric->absorbed[d]) {
-            volumetric->held_shift[d] = volumetric->shift[d];
-            volumetric->release_step[d] = table->cycles;
+            take_shift_back(volumetric, d);
         }
     }
 }
@@ -2091,45 +2114,30 @@ static void switch_on(const VolumetricTable *table, VolumetricState *volumetric,
         state->axis[table->member[m]].stop_request = false;
     }
     if (!volumetric->started) {
-        volumetric->step = table->cycles;
+        volumetric->progress = 1.0;
     } else if (volumetric->no_move) {
-        volumetric->step = table->cycles;
+        volumetric->progress = 1.0;
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->absorbed[d] = true;
+            volumetric->waiting[d] = false;
         }
     } else {
-        release_shifts(table, volumetric);
+        release_shifts(volumetric);
     }
 }
 
 /* Tell whether a compensation that is running down can go up again; else it has to be down before. */
 static bool can_turn_round(const VolumetricState *volumetric)
 {
+    if (volumetric->progress == 0.0) {
+        return true;
+    }
     for (int32_t d = 0; d < LINEAR; d++) {
         if (!volumetric->taking_part[d] || volumetric->factor[d] != volumetric->wanted_factor[d]) {
             return false;
         }
     }
     return true;
-}
-
-/* Advance weight and shifts by one cycle. */
-static void advance_weight(const VolumetricTable *table, VolumetricState *volumetric)
-{
-    if (volumetric->on) {
-        if (volumetric->step < table->cycles) {
-            volumetric->step += 1;
-        }
-    } else if (volumetric->step > 0) {
-        volumetric->step -= 1;
-    }
-    volumetric->weight = smooth(volumetric->step, table->cycles);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (volumetric->release_step[d] > 0) {
-            volumetric->release_step[d] -= 1;
-            volumetric->shift[d] = volumetric->held_shift[d] * smooth(volumetric->release_step[d], table->cycles);
-        }
-    }
 }
 
 /* Report an error at X, Y and Z. */
@@ -2140,7 +2148,7 @@ static void set_error(const VolumetricTable *table, State *state, int32_t error)
     }
 }
 
-/* Follow commands and conditions and advance the weight by one cycle; what is on in the first has full weight. */
+/* Follow commands and conditions; what is on in the first cycle has full weight. */
 static void switch_volumetric(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
         const Inputs *inputs, State *state)
 {
@@ -2151,46 +2159,102 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         volumetric->enable = given->enable;
         take_command(table, volumetric, given, given->enable);
     }
-    bool ready = drop_members(table, volumetric, inputs);
+    bool ready = drop_members(table, volumetric, inputs, state);
     if (inputs->reset) {
         volumetric->command = false;
-        stop_without_motion(volumetric);
+        stop_without_motion(volumetric, true);
     } else if (inputs->program_end && table->associated && volumetric->on) {
         volumetric->command = false;
-        stop_without_motion(volumetric);
+        stop_without_motion(volumetric, true);
         set_error(table, state, ERROR_PROGRAM_END);
-    } else if (table->manual && volumetric->command && (inputs->program_end || !ready)) {
+    } else if (table->manual && volumetric->command && !ready) {
         take_command(table, volumetric, given, false);
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
         if (ready && volumetric->no_move) {
-            stop_without_motion(volumetric);
+            stop_without_motion(volumetric, false);
         } else {
             volumetric->on = false;
-            release_shifts(table, volumetric);
+            release_shifts(volumetric);
         }
-    } else if (!volumetric->on && volumetric->command && ready
-            && (volumetric->step == 0 || can_turn_round(volumetric))) {
+    } else if (!volumetric->on && volumetric->command && ready && can_turn_round(volumetric)) {
         switch_on(table, volumetric, state);
     }
-    advance_weight(table, volumetric);
-    volumetric->started = true;
 }
 
 /* Switch off without motion for an update; a manual compensation needs a new command. */
 static void adopt_volumetric(const VolumetricTable *before, const VolumetricTable *after, VolumetricState *volumetric)
 {
-    stop_without_motion(volumetric);
+    stop_without_motion(volumetric, true);
     if (after->manual) {
         volumetric->command = false;
+    }
+    for (int32_t b = 0; b < ERRORS; b++) {
+        volumetric->section[b] = 0;
     }
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->shift[d] += volumetric->contribution[d];
         volumetric->contribution[d] = 0.0;
-        volumetric->release_step[d] = 0;
+        volumetric->release[d] = 0.0;
+        volumetric->held_shift[d] = 0.0;
         if (before->axis[d] != after->axis[d]) {
             volumetric->shift[d] = 0.0;
+        }
+    }
+}
+
+/* Return how much of its way every filter goes in a cycle: together they are no faster than the axes may be. */
+static double share_of_cycle(const VolumetricTable *table, const VolumetricState *volumetric)
+{
+    double share = 1.0 / table->cycles;
+    for (int32_t d = 0; d < LINEAR; d++) {
+        double way = 0.0;
+        if ((0.0 < volumetric->progress && volumetric->progress < 1.0)
+                || volumetric->on != (volumetric->progress > 0.0)) {
+            way += fabs(volumetric->value[d]);
+        }
+        if (volumetric->tool_progress < 1.0) {
+            way += fabs(volumetric->tool_change[d]);
+        }
+        if (volumetric->release[d] > 0.0) {
+            way += fabs(volumetric->held_shift[d]);
+        }
+        if (table->velocity[d] > 0.0 && STEEPEST * way * share > table->velocity[d]) {
+            share = table->velocity[d] / (STEEPEST * way);
+        }
+    }
+    return share;
+}
+
+/* Return the progress of a filter after one more cycle. */
+static double advanced(double progress, double by)
+{
+    progress += by;
+    if (progress > 1.0 - ARRIVED) {
+        return 1.0;
+    }
+    return progress > ARRIVED ? progress : 0.0;
+}
+
+/* Let all filters go on by one cycle; a shift whose axis begins to move is released. */
+static void advance_filters(const VolumetricTable *table, VolumetricState *volumetric, const State *state)
+{
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!state->motion.axis[table->axis[d]].moving) {
+            volumetric->waiting[d] = false;
+        } else if (volumetric->shift[d] != 0.0 && volumetric->release[d] == 0.0 && !volumetric->waiting[d]) {
+            take_shift_back(volumetric, d);
+        }
+    }
+    double share = share_of_cycle(table, volumetric);
+    volumetric->progress = advanced(volumetric->progress, volumetric->on ? share : -share);
+    volumetric->weight = smooth(volumetric->progress);
+    volumetric->tool_progress = advanced(volumetric->tool_progress, share);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (volumetric->release[d] > 0.0) {
+            volumetric->release[d] = advanced(volumetric->release[d], -share);
+            volumetric->shift[d] = volumetric->held_shift[d] * smooth(volumetric->release[d]);
         }
     }
 }
@@ -2199,77 +2263,129 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
  *
  * The volumetric compensations of one cycle, each from the raw setpoints of its axes (semantics §10).
  *
- * Every correction stays below the limits of its axis and of the gantry slaves that follow it. Where one does not, its
- * last value becomes a shift, the axis is asked to stop, and the compensation switches off.
+ * The sum of all corrections of an axis stays below its limit, as that of the gantry slaves that follow it. Where it does
+ * not, its last value becomes a shift, the axes are asked to stop, and every compensation of the axis switches off.
  */
 
-/* Drop the axes whose correction is too large, and let the others run down. */
-static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state)
+/* Tell whether a tool can be that long. */
+static bool is_tool_length(double length)
 {
-    double size[LETTERS] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (volumetric->taking_part[d]) {
-            size[d] = fabs(volumetric->value[d]);
-        }
-    }
-    bool exceeded = false;
-    for (int32_t m = 0; m < table->members; m++) {
-        int32_t letter = table->member_letter[m];
-        if (letter < LINEAR && !(size[letter] <= table->member_limit[m])) {
-            exceeded = true;
-            drop_axis(volumetric, letter);
-            AxisState *axis = &state->axis[table->member[m]];
-            axis->error = ERROR_LIMIT_EXCEEDED;
-            axis->stop_request = true;
-        }
-    }
-    if (exceeded) {
-        volumetric->command = false;
-        volumetric->on = false;
-        release_shifts(table, volumetric);
-    }
+    return -LARGEST_TOOL <= length && length <= LARGEST_TOOL;
 }
 
-/* Compute the corrections at full weight; an error switches off. */
-static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state)
+/* Put the corrections at full weight into `value`; false: there are none here, and it stays. */
+static bool compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric,
+        const State *state, double tool_length, double value[LINEAR])
 {
     double position[LETTERS] = {0};
     for (int32_t letter = 0; letter < LETTERS; letter++) {
         position[letter] = state->motion.axis[table->axis[letter]].setpoint + table->offset[letter];
     }
     double correction[LINEAR] = {0};
-    if (!correction_at(pool, table, position, state->tool_length, volumetric->section, correction)) {
-        volumetric->command = false;
-        stop_without_motion(volumetric);
-        set_error(table, state, ERROR_SINGULAR);
-        return;
+    if (!correction_at(pool, table, position, tool_length, volumetric->section, correction)) {
+        return false;
     }
     for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->value[d] = volumetric->factor[d] * correction[d];
+        value[d] = volumetric->factor[d] * correction[d];
     }
-    check_limits(table, volumetric, state);
+    return true;
+}
+
+/* Compute the corrections at full weight and let all filters go on; an error switches off. */
+static void filter_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state)
+{
+    bool acts = volumetric->on || volumetric->progress > 0.0;
+    if (volumetric->progress == 0.0 || !volumetric->started) {
+        volumetric->tool_length = state->tool_length;
+        volumetric->new_tool_length = state->tool_length;
+        volumetric->tool_progress = 1.0;
+    }
+    bool usable = true;
+    if (acts) {
+        usable = compute_values(pool, table, volumetric, state, volumetric->tool_length, volumetric->value);
+        if (usable && state->tool_length != volumetric->new_tool_length) {
+            volumetric->old_tool_length = volumetric->tool_length;
+            volumetric->new_tool_length = state->tool_length;
+            volumetric->tool_progress = 0.0;
+            usable = compute_values(pool, table, volumetric, state, state->tool_length, volumetric->tool_change);
+            for (int32_t d = 0; d < LINEAR; d++) {
+                volumetric->tool_change[d] -= volumetric->value[d];
+            }
+        }
+    }
+    bool changes_tool = volumetric->tool_progress < 1.0;
+    advance_filters(table, volumetric, state);
+    if (usable && acts && changes_tool) {
+        double way = volumetric->new_tool_length - volumetric->old_tool_length;
+        volumetric->tool_length = volumetric->old_tool_length + smooth(volumetric->tool_progress) * way;
+        usable = compute_values(pool, table, volumetric, state, volumetric->tool_length, volumetric->value);
+    }
+    if (!usable) {
+        volumetric->command = false;
+        stop_without_motion(volumetric, true);
+        set_error(table, state, ERROR_SINGULAR);
+    }
+    volumetric->started = true;
+}
+
+/* Return the correction of X, Y or Z in this cycle. */
+static double correction_of(const VolumetricState *volumetric, int32_t letter)
+{
+    if (volumetric->taking_part[letter]) {
+        return volumetric->weight * volumetric->value[letter];
+    }
+    return 0.0;
+}
+
+/* Add the corrections of this cycle to their axes. */
+static void add_to_axes(const VolumetricTable *table, const VolumetricState *volumetric, State *state)
+{
+    for (int32_t m = 0; m < table->members; m++) {
+        int32_t letter = table->member_letter[m];
+        if (letter < LINEAR) {
+            state->axis[table->member[m]].volumetric_correction += correction_of(volumetric, letter);
+        }
+    }
+}
+
+/* Drop the axes whose corrections are too large together, stop all others, and let their corrections run down. */
+static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state)
+{
+    bool exceeded = false;
+    for (int32_t m = 0; m < table->members; m++) {
+        int32_t letter = table->member_letter[m];
+        AxisState *axis = &state->axis[table->member[m]];
+        if (letter < LINEAR && !(fabs(axis->volumetric_correction) <= table->member_limit[m])) {
+            exceeded = true;
+            drop_axis(volumetric, letter);
+            axis->error = ERROR_LIMIT_EXCEEDED;
+        }
+    }
+    if (exceeded) {
+        volumetric->command = false;
+        volumetric->on = false;
+        release_shifts(volumetric);
+        request_stops(table, state);
+    }
 }
 
 /* Add corrections and shifts to the axes; a change that must not move an axis goes into its shift. */
 static void contribute(const VolumetricTable *table, VolumetricState *volumetric, State *state)
 {
     for (int32_t d = 0; d < LINEAR; d++) {
-        double contribution = 0.0;
-        if (volumetric->taking_part[d]) {
-            contribution = volumetric->weight * volumetric->value[d];
-        }
+        double contribution = correction_of(volumetric, d);
         if (volumetric->absorbed[d]) {
             volumetric->shift[d] += volumetric->contribution[d] - contribution;
-            volumetric->release_step[d] = 0;
+            volumetric->release[d] = 0.0;
+            volumetric->held_shift[d] = 0.0;
         }
         volumetric->contribution[d] = contribution;
     }
+    add_to_axes(table, volumetric, state);
     for (int32_t m = 0; m < table->members; m++) {
         int32_t letter = table->member_letter[m];
         if (letter < LINEAR) {
-            AxisState *axis = &state->axis[table->member[m]];
-            axis->volumetric_correction += volumetric->contribution[letter];
-            axis->volumetric_shift += volumetric->shift[letter];
+            state->axis[table->member[m]].volumetric_shift += volumetric->shift[letter];
         }
     }
 }
@@ -2285,7 +2401,7 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
             state->axis[i].stop_request = false;
         }
     }
-    if (-LARGEST_TOOL < inputs->tool_length && inputs->tool_length < LARGEST_TOOL) {
+    if (is_tool_length(inputs->tool_length)) {
         state->tool_length = inputs->tool_length;
     }
     for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
@@ -2293,11 +2409,36 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
         if (table->configured) {
             VolumetricState *volumetric = &state->volumetric[k];
             switch_volumetric(table, volumetric, &inputs->volumetric[k], inputs, state);
-            if (volumetric->step > 0) {
-                compute_values(pool, table, volumetric, state);
+            filter_values(pool, table, volumetric, state);
+            add_to_axes(table, volumetric, state);
+        }
+    }
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+        if (state->volumetric[k].progress > 0.0) {
+            check_limits(&tables->volumetric[k], &state->volumetric[k], state);
+        }
+    }
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        state->axis[i].volumetric_correction = 0.0;
+    }
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+        if (tables->volumetric[k].configured) {
+            contribute(&tables->volumetric[k], &state->volumetric[k], state);
+            outputs->volumetric[k].active = state->volumetric[k].progress > 0.0;
+        }
+    }
+}
+
+/* Report a tool length that cannot be used at X, Y and Z of all compensations. */
+static void report_tool_length(const Tables *tables, const Inputs *inputs, Outputs *outputs)
+{
+    if (!is_tool_length(inputs->tool_length)) {
+        for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+            if (tables->volumetric[k].configured) {
+                for (int32_t d = 0; d < LINEAR; d++) {
+                    outputs->axis[tables->volumetric[k].axis[d]].error = ERROR_INPUT;
+                }
             }
-            contribute(table, volumetric, state);
-            outputs->volumetric[k].active = volumetric->step > 0;
         }
     }
 }
@@ -2428,6 +2569,9 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
             correct_axis(tables, pool, state, &inputs->axis[i], &outputs->axis[i], i);
             outputs->axis[i].error = axis->error;
         }
+    }
+    if (tables->volumetrics > 0) {
+        report_tool_length(tables, inputs, outputs);
     }
 }
 

@@ -37,6 +37,7 @@ def machine_files(**changes: Any) -> Files:
     files["errors.csv"] = changes.get("csv", CSV)
     for letter, number in axes.items():
         limit = "lr_param.vol_comp.s_limit 10000\n" if letter in changes.get("limited", LINEAR) else ""
+        limit += "lr_param.vol_comp.v_limit 2500\n" if letter in changes.get("slowed", LINEAR) else ""
         axis_type = 1 if letter in LINEAR else 2
         files[f"achsmd{number}.lis"] = (
             f"kopf.achs_nr {number}\nkopf.log_achs_name {letter}\nkenngr.achs_typ {axis_type}\n{limit}"
@@ -285,6 +286,7 @@ def test_a_file_too_many_is_said_to_keep_the_compensation_off(read: Callable[...
         ({"volumetric": ["enable_splicing 1"]}, ("AXC-SPLICING", "vol_comp0.lis", 9)),
         ({"csv": "C EXC\n-180 0.001\n0 0.002\n180 0.0015\n"}, ("AXC-OPEN", "errors.csv", 1)),
         ({"limited": "XZ"}, ("AXC-LIMIT", "vol_comp0.lis", 2)),
+        ({"slowed": "Y"}, ("AXC-V-LIMIT", "vol_comp0.lis", 0)),
         ({"start_up": ["vol_comp[0].max_records 1000", "vol_comp[5].max_records 5"]}, ("70506", "hochlauf.lis", 9)),
     ],
 )
@@ -379,19 +381,19 @@ def test_gantry_slaves_are_read(read: Callable[..., Reading]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("limits", "code", "sentence"),
+    ("limits", "expected", "sentence"),
     [
-        ("s_limit 10000\nlr_param.vol_comp.v_limit 500", "AXC-NOT-MODELLED", "v_limit of axis 9 is not modelled"),
-        ("v_limit 0", "AXC-LIMIT", "Axis 9 has no lr_param.vol_comp.s_limit"),
+        ("s_limit 10000", ("AXC-V-LIMIT", "vol_comp0.lis", 0), "No lr_param.vol_comp.v_limit for axis 9"),
+        ("v_limit 500", ("AXC-LIMIT", "vol_comp0.lis", 2), "Axis 9 has no lr_param.vol_comp.s_limit"),
     ],
 )
 def test_the_limits_of_a_gantry_slave_are_looked_at_as_its_masters(
-    read: Callable[..., Reading], limits: str, code: str, sentence: str
+    read: Callable[..., Reading], limits: str, expected: tuple[str, str, int], sentence: str
 ) -> None:
     slave = f"kopf.achs_nr 9\nkopf.log_achs_name Y2\nkenngr.gantry_ax_nr 2\nlr_param.vol_comp.{limits}\n"
     hochlauf = machine_files()["hochlauf.lis"].replace("zahl_mds 5", "zahl_mds 6\nachs_mds[5] achsmd9.lis")
     reading = read(files={"achsmd9.lis": slave, "hochlauf.lis": hochlauf})
-    assert found(reading) == [(code, "vol_comp0.lis", 2)]
+    assert found(reading) == [expected]
     assert sentence in reading.findings[0].message
 
 
@@ -463,8 +465,8 @@ def test_written_lists_read_back_to_the_same_machine(compensations: tuple[Volume
     assert read.machine == machine
     assert [one.diagnosis_file for one in read.machine.volumetric] == [one.diagnosis_file for one in compensations]
     codes = {finding.code for finding in read.findings}
-    # Large errors, and tables over a full turn that do not close.
-    assert codes <= {"70474", "AXC-LARGE", "AXC-OPEN"}
+    # Large errors, tables over a full turn that do not close, and no v_limit.
+    assert codes <= {"70474", "AXC-LARGE", "AXC-OPEN", "AXC-V-LIMIT"}
 
 
 def test_a_list_that_cannot_be_read_back_is_not_written(tmp_path: Path) -> None:
