@@ -100,7 +100,8 @@ def reference_page() -> str:
     )
     errors = "\n".join(f"| {number} | {meaning} |" for number, meaning in ERRORS.items())
     tables = f"## Of the machine\n\n{machine}\n\n## Of every axis\n\n{axis}\n{kinds}\n"
-    tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves; of the other axes `stop_request` only\n\n{volumetric}\n"
+    of_others = "of the other axes that take part `stop_request` only"
+    tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves; {of_others}\n\n{volumetric}\n"
     tables += f"\n## Of every volumetric compensation\n\n{volumetrics}\n"
     return f"{head}\n{tables}\n{STEPS}{errors}\n"
 

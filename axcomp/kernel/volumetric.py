@@ -120,7 +120,7 @@ def compute_values(
     if not correction_at(pool, table, position, tool_length, volumetric.section, correction):
         return False
     for d in range(LINEAR):
-        value[d] = volumetric.factor[d] * correction[d]
+        value[d] = table.sign[d] * volumetric.factor[d] * correction[d]
     return True
 
 

@@ -104,7 +104,7 @@ class VolumetricState:
     enable: bool  # the input in the last cycle: its edges are the commands
     command: bool  # what was last commanded
     no_move: bool  # the command came with NO_MOVE
-    wanted_factor: Annotated[list[float], LINEAR]  # sign · CFACT of the command
+    wanted_factor: Annotated[list[float], LINEAR]  # CFACT of the command
     on: bool  # the command, while it can be obeyed
     progress: float  # of the switch
     weight: float  # the same along the filter

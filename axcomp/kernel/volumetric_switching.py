@@ -35,7 +35,7 @@ def switch_volumetric(
         volumetric.absorbed[d] = False
     if not volumetric.started or given.enable != volumetric.enable:
         volumetric.enable = given.enable
-        take_command(table, volumetric, given, given.enable)
+        take_command(volumetric, given, given.enable)
     ready = drop_members(table, volumetric, inputs, state)
     if inputs.reset:
         volumetric.command = False
@@ -45,7 +45,7 @@ def switch_volumetric(
         stop_without_motion(volumetric, True)
         set_error(table, state, ERROR_PROGRAM_END)
     elif table.manual and volumetric.command and not ready:
-        take_command(table, volumetric, given, False)
+        take_command(volumetric, given, False)
 
     if volumetric.on and not (volumetric.command and ready):
         if ready and volumetric.no_move:
@@ -57,19 +57,24 @@ def switch_volumetric(
         switch_on(table, volumetric, state)
 
 
-def take_command(table: VolumetricTable, volumetric: VolumetricState, given: VolumetricInputs, command: bool) -> None:
+def take_command(volumetric: VolumetricState, given: VolumetricInputs, command: bool) -> None:
     """Keep a command until it can be obeyed, and what came with it."""
     volumetric.command = command
     volumetric.no_move = given.no_move
     for d in range(LINEAR):
-        volumetric.wanted_factor[d] = signed_factor(table, given, d)
+        volumetric.wanted_factor[d] = factor_of(given, d)
 
 
 def adopt_volumetric(before: VolumetricTable, after: VolumetricTable, volumetric: VolumetricState) -> None:
-    """Switch off without motion for an update; a manual compensation needs a new command."""
+    """Switch off without motion for an update; a manual compensation needs a new command, an automatic one none."""
     stop_without_motion(volumetric, True)
     if after.manual:
         volumetric.command = False
+    elif before.manual:
+        volumetric.command = True
+        volumetric.no_move = False
+        for d in range(LINEAR):
+            volumetric.wanted_factor[d] = 1.0
     for b in range(ERRORS):
         volumetric.section[b] = 0
     for d in range(LINEAR):
@@ -153,15 +158,15 @@ def switch_on(table: VolumetricTable, volumetric: VolumetricState, state: State)
         release_shifts(volumetric)
 
 
-def signed_factor(table: VolumetricTable, given: VolumetricInputs, letter: int) -> float:
-    """Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0."""
+def factor_of(given: VolumetricInputs, letter: int) -> float:
+    """Return CFACT of X, Y or Z, held within 0 … 1; what is no number counts as 0."""
     factor = given.factor_x
     if letter == 1:
         factor = given.factor_y
     elif letter == LINEAR - 1:
         factor = given.factor_z
     if factor >= 0.0:
-        return table.sign[letter] * min(factor, 1.0)
+        return min(factor, 1.0)
     return 0.0
 
 

@@ -1990,8 +1990,8 @@ static double smooth(double u)
     return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
-/* Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0. */
-static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter)
+/* Return CFACT of X, Y or Z, held within 0 … 1; what is no number counts as 0. */
+static double factor_of(const VolumetricInputs *given, int32_t letter)
 {
     double factor = given->factor_x;
     if (letter == 1) {
@@ -2000,19 +2000,18 @@ static double signed_factor(const VolumetricTable *table, const VolumetricInputs
         factor = given->factor_z;
     }
     if (factor >= 0.0) {
-        return table->sign[letter] * double_min(factor, 1.0);
+        return double_min(factor, 1.0);
     }
     return 0.0;
 }
 
 /* Keep a command until it can be obeyed, and what came with it. */
-static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
-        bool command)
+static void take_command(VolumetricState *volumetric, const VolumetricInputs *given, bool command)
 {
     volumetric->command = command;
     volumetric->no_move = given->no_move;
     for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->wanted_factor[d] = signed_factor(table, given, d);
+        volumetric->wanted_factor[d] = factor_of(given, d);
     }
 }
 
@@ -2157,7 +2156,7 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
     }
     if (!volumetric->started || given->enable != volumetric->enable) {
         volumetric->enable = given->enable;
-        take_command(table, volumetric, given, given->enable);
+        take_command(volumetric, given, given->enable);
     }
     bool ready = drop_members(table, volumetric, inputs, state);
     if (inputs->reset) {
@@ -2168,7 +2167,7 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         stop_without_motion(volumetric, true);
         set_error(table, state, ERROR_PROGRAM_END);
     } else if (table->manual && volumetric->command && !ready) {
-        take_command(table, volumetric, given, false);
+        take_command(volumetric, given, false);
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
@@ -2183,12 +2182,18 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
     }
 }
 
-/* Switch off without motion for an update; a manual compensation needs a new command. */
+/* Switch off without motion for an update; a manual compensation needs a new command, an automatic one none. */
 static void adopt_volumetric(const VolumetricTable *before, const VolumetricTable *after, VolumetricState *volumetric)
 {
     stop_without_motion(volumetric, true);
     if (after->manual) {
         volumetric->command = false;
+    } else if (before->manual) {
+        volumetric->command = true;
+        volumetric->no_move = false;
+        for (int32_t d = 0; d < LINEAR; d++) {
+            volumetric->wanted_factor[d] = 1.0;
+        }
     }
     for (int32_t b = 0; b < ERRORS; b++) {
         volumetric->section[b] = 0;
@@ -2286,7 +2291,7 @@ static bool compute_values(const double *pool, const VolumetricTable *table, Vol
         return false;
     }
     for (int32_t d = 0; d < LINEAR; d++) {
-        value[d] = volumetric->factor[d] * correction[d];
+        value[d] = table->sign[d] * volumetric->factor[d] * correction[d];
     }
     return true;
 }

@@ -408,7 +408,7 @@ typedef struct {
     bool enable;  /* the input in the last cycle: its edges are the commands */
     bool command;  /* what was last commanded */
     bool no_move;  /* the command came with NO_MOVE */
-    double wanted_factor[LINEAR];  /* sign · CFACT of the command */
+    double wanted_factor[LINEAR];  /* CFACT of the command */
     bool on;  /* the command, while it can be obeyed */
     double progress;  /* of the switch */
     double weight;  /* the same along the filter */

@@ -20,6 +20,7 @@ from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Volumet
 from axcomp.runtime.runtime import Runtime
 
 Matrix = NDArray[np.float64]
+FASTEST = 1e6  # mm/s: slows no filter down
 NUMBERS = {letter: number for number, letter in enumerate(LETTERS, 1)}
 
 
@@ -97,7 +98,7 @@ def machine_of(*compensations: Volumetric, limit: float | None = 1000.0) -> Mach
     """Return a machine whose axes X … C have the numbers 1 … 6."""
     types = dict.fromkeys(LINEAR, AxisType.TRANSLATORY)
     axes = (
-        Axis(number, letter, types.get(letter, AxisType.ROTARY), volumetric_limit=limit)
+        Axis(number, letter, types.get(letter, AxisType.ROTARY), volumetric_limit=limit, volumetric_velocity=FASTEST)
         for letter, number in NUMBERS.items()
     )
     return Machine(tuple(axes), compensations)
