@@ -115,6 +115,7 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-RECORD": (_ERROR, "A record has too many or too few columns, or one that is no number"),
     "AXC-NO-RECORD": (_WARNING, "A parameter is named but has no record; it is not taken"),
     "AXC-MAGNITUDE": (_ERROR, "A parameter has a value that no machine has: it is in another unit"),
+    "AXC-SECTION": (_WARNING, "A section of an Etalon exchange file is no parameter; it is passed over"),
     "AXC-LARGE": (_WARNING, "An error so large that it can only be in µm or degrees"),
     "AXC-OPEN": (_WARNING, "A table jumps while a rotary axis goes on turning"),
     "AXC-SPLICING": (_WARNING, "enable_splicing changes nothing"),

@@ -47,9 +47,9 @@ def check_name(name: str, file: str, line: int, findings: Findings) -> bool:
 
 
 def numbers(cells: list[str], file: str, line: int, parameter: str, findings: Findings) -> list[float] | None:
-    """Return the numbers of a record; None, with a finding, if a cell is none."""
+    """Return the numbers of a record, which may have decimal commas; None, with a finding, if a cell is none."""
     try:
-        row = [float(cell) for cell in cells]
+        row = [float(cell if "." in cell else cell.replace(",", ".", 1)) for cell in cells]
     except ValueError:
         row = [math.nan]
     # Python takes digits grouped by _ and names of infinity for numbers; a parameter file does not.

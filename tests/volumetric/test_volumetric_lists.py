@@ -225,8 +225,8 @@ OFF = [
     ({"volumetric": ["workpiece_axes 6"]}, ("AXC-CHAIN", "vol_comp0.lis", 9)),
     ({"volumetric": ["file[1] missing.csv"]}, ("AXC-MISSING", "vol_comp0.lis", 9)),
     ({"volumetric": ["file[10] errors.csv"]}, ("70507", "vol_comp0.lis", 9)),
-    ({"volumetric": ["file_format[0] ETALON_EXCHANGE", "file[0] errors.exc"], "files": {"errors.exc": "[Q]\n"}},
-     ("70468", "errors.exc", 1)),
+    ({"volumetric": ["file_format[0] ETALON_EXCHANGE"], "csv": "[EXX]\nVALUE = 1 2\n"},
+     ("AXC-RECORD", "errors.csv", 2)),
     ({"start_up": ["vol_comp[0].max_records 3"]}, ("AXC-MAX-RECORDS", "hochlauf.lis", 8)),
     ({"start_up": []}, ("AXC-MAX-RECORDS", "hochlauf.lis", 7)),
 ]  # fmt: skip
