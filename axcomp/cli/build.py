@@ -7,12 +7,11 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..analysis.diagnosis.records import volumetric_lists
+from ..analysis.diagnosis.records import write_named_diagnoses
 from ..fmu.archive import BuildError
 from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native, write_image
 from ..fmu.package import package_axcomp
-from ..lists import Reading
 from ..model.companions import machine_path, models
 from ..model.machine import CYCLE_TIME
 from ..native.compiler import PLATFORMS
@@ -102,7 +101,11 @@ def _do_build(args: argparse.Namespace) -> int:
             print(finding, file=sys.stderr)
         for line in _summary(built):
             print(line)
-        _write_diagnoses(built.reading)
+        for said in write_named_diagnoses(built.reading):
+            if isinstance(said, Path):
+                print(said)
+            else:
+                print(f"note: {said}", file=sys.stderr)
         if args.machine is None and args.output is None and args.image is None:
             print(package_plant(example, Path.cwd(), external_tool=not args.no_external_tool).name)
     except NoCompilerError as error:
@@ -137,24 +140,6 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
         external_tool=not args.no_external_tool,
         axis_type=args.axis_type,
     )
-
-
-def _write_diagnoses(reading: Reading) -> None:
-    """Write the diagnosis files that volumetric lists name; what stands in the way of that stops no build."""
-    sources = [source for source in volumetric_lists(reading)[0] if source.diagnosis_file]
-    if not sources:
-        return
-    try:
-        from ..analysis.diagnosis.files import Written, write_diagnoses
-    except ModuleNotFoundError as error:
-        names = ", ".join(source.diagnosis_file for source in sources)
-        print(f"note: {names} is not written without {error.name}: pip install 'axcomp[workbench]'.", file=sys.stderr)
-        return
-    for result in write_diagnoses(sources, reading):
-        if isinstance(result, Written):
-            print(result.path)
-        for note in result.notes if isinstance(result, Written) else [result]:
-            print(f"note: {note}", file=sys.stderr)
 
 
 def _summary(built: Built) -> Iterator[str]:

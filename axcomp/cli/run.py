@@ -5,15 +5,17 @@ from __future__ import annotations
 import argparse
 import csv
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..analysis.diagnosis.records import write_named_diagnoses
 from ..engine.engine import COMMAND, Engine
 from ..engine.nc_scanner import NcError
+from ..lists import read_machine
 from ..model.companions import machine_path, models
 from ..model.machine import CYCLE_TIME
 from .axis_type import add_axis_type
@@ -76,8 +78,17 @@ def _do_run(args: argparse.Namespace) -> int:
     cycle_time = args.cycle_time or program.spacing or CYCLE_TIME
     if program.spacing is not None and abs(program.spacing - cycle_time) > _ON_TIME * cycle_time:
         raise ValueError(f"{args.program}: the rows are {program.spacing:g} s apart, the cycles {cycle_time:g} s")
-    engine = Engine(args.machine or models() / "three_axis", cycle_time, args.naming, args.axis_type)
+    lists = args.machine or models() / "three_axis"
+    engine = Engine(lists, cycle_time, args.naming, args.axis_type)
     engine.runtime.start_time = program.start
+
+    def write_diagnosis(index: int | None = None) -> Iterator[str]:
+        """Write what the controller writes at start-up and with every UPDATE."""
+        for said in write_named_diagnoses(read_machine(lists, axis_type=args.axis_type), index):
+            yield f"{said} is written." if isinstance(said, Path) else said
+
+    engine.nc.on_update = write_diagnosis
+    notices = list(write_diagnosis()) if any(one.diagnosis_file for one in engine.machine.volumetric) else []
     for finding in engine.findings:
         print(finding, file=sys.stderr)
     if _report_commands(engine, args.program, program):
@@ -87,7 +98,7 @@ def _do_run(args: argparse.Namespace) -> int:
         result = engine.run(trajectory)  # type: ignore[arg-type]
     except KeyError as error:
         raise ValueError(f"{args.program}:1: {error.args[0]}") from None
-    for notice in result.notices:
+    for notice in (*notices, *result.notices):
         print(f"{args.program}: note: {notice}", file=sys.stderr)
     if args.output is None:
         sys.stdout.writelines(f"{line}\n" for line in result.csv_lines())

@@ -2,7 +2,8 @@
 
 ``X[COMP ON CROSS PLANE]  Y[COMP OFF LEAD NO_MOVE]  Z[COMP OFF_ALL]``; ``#VOLCOMP ON [ID=0 NO_MOVE CFACT_X=0.5]``,
 ``#VOLCOMP OFF [ID=0]``, ``#VOLCOMP [ID=0 UPDATE]``, ``#VOLCOMP ON ALL``; ``V.G.VOLCOMP[0].FILE[1] = "new.csv"`` and,
-to have its value told, ``V.G.VOLCOMP[0].ACTIVE``. ``ID0`` is an older spelling of ``ID=0``.
+to have their values told, ``V.G.VOLCOMP[0].ACTIVE`` and ``V.A.CROSS_COMP_ACTIVE.X``. ``ID0`` and ``ID 0`` are other
+spellings of ``ID=0``.
 """
 
 from __future__ import annotations
@@ -77,6 +78,18 @@ class Variable:
 
 
 @dataclass(frozen=True)
+class AxisVariable:
+    """``V.A.CROSS_COMP_ACTIVE.X`` and the like: whether a kind of compensation of an axis is active."""
+
+    place: int
+    kind: str
+    axis: str
+
+    def __str__(self) -> str:
+        return f"V.A.{KINDS[self.kind].word}_COMP_ACTIVE.{self.axis}"
+
+
+@dataclass(frozen=True)
 class Assignment:
     """``variable = value``; the value is a string or another variable."""
 
@@ -84,7 +97,7 @@ class Assignment:
     value: str | Variable
 
 
-Command = AxisCommand | VolumetricSwitch | VolumetricUpdate | Variable | Assignment
+Command = AxisCommand | VolumetricSwitch | VolumetricUpdate | Variable | AxisVariable | Assignment
 
 
 def parse_block(block: str) -> tuple[Command, ...]:
@@ -106,8 +119,10 @@ def parse_block(block: str) -> tuple[Command, ...]:
             cursor.expect("VOLCOMP")
             commands.append(_volumetric(cursor, word.place))
         elif word.text.startswith("V.G."):
-            variable = parse_variable(cursor)
+            variable = _variable(cursor)
             commands.append(_assignment(cursor, variable) if cursor.take_if("=") else variable)
+        elif word.text.startswith("V.A."):
+            commands.append(_axis_variable(cursor))
         elif word.kind == "name":
             commands.append(_axis_command(cursor))
         else:
@@ -115,8 +130,20 @@ def parse_block(block: str) -> tuple[Command, ...]:
     return tuple(commands)
 
 
-def parse_variable(cursor: Cursor) -> Variable:
-    """Take a variable ``V.G.VOLCOMP[i]…``."""
+def parse_variable(cursor: Cursor) -> Variable | AxisVariable:
+    """Take a variable ``V.G.VOLCOMP[i]…`` or ``V.A.…_COMP_ACTIVE.X``."""
+    return _axis_variable(cursor) if cursor.word.text.startswith("V.A.") else _variable(cursor)
+
+
+def _axis_variable(cursor: Cursor) -> AxisVariable:
+    word = cursor.take()
+    found = re.fullmatch(r"V\.A\.(\w+)_COMP_ACTIVE\.(.+)", word.text)
+    if found is None or found[1] not in WORDS:
+        raise NcError(word.place, f"V.A.…_COMP_ACTIVE.X with {', '.join(WORDS)} is expected, not “{word.text}”")
+    return AxisVariable(word.place, WORDS[found[1]], found[2])
+
+
+def _variable(cursor: Cursor) -> Variable:
     place = cursor.expect("V.G.VOLCOMP").place
     index = _index(cursor, COMPENSATIONS_MAX, "70506", "a volumetric compensation")
     member = cursor.expect(".FILE", ".ACTIVE")
@@ -143,7 +170,7 @@ def _assignment(cursor: Cursor, variable: Variable) -> Assignment:
     if variable.file is None:
         raise NcError(variable.place, f"{variable} can only be read")
     if cursor.word.text.startswith("V.G."):
-        return Assignment(variable, parse_variable(cursor))
+        return Assignment(variable, _variable(cursor))
     return Assignment(variable, cursor.expect_kind("string", "a string in quotes").text)
 
 
@@ -168,6 +195,10 @@ def _axis_command(cursor: Cursor) -> AxisCommand:
                 all_on = True
         no_move = cursor.take_if("NO_MOVE") is not None or no_move
         if cursor.take_if("]"):
+            if all_off and (all_on or any(switched.values())):
+                raise NcError(axis.place, "OFF_ALL stands alone")
+            if contradictory := [kind for kind in switched[False] if all_on or kind in switched[True]]:
+                raise NcError(axis.place, f"{', '.join(KINDS[kind].word for kind in contradictory)} is both on and off")
             return AxisCommand(
                 axis.place, axis.text, tuple(switched[True]), tuple(switched[False]), all_on, all_off, no_move
             )
@@ -209,11 +240,11 @@ def _identifier(cursor: Cursor) -> int:
     word = cursor.word
     if old := re.fullmatch(r"ID(\d+)", word.text):
         cursor.take()
-        return _whole(Word("number", old[1], word.place + 2), COMPENSATIONS_MAX, "70506", what)
+        return _whole(Word("number", old[1], word.place + 2), COMPENSATIONS_MAX, "21749", what)
     if cursor.take_if("ID") is None:
         raise cursor.wrong("ID=…")
-    cursor.expect("=")
-    return _whole(cursor.expect_kind("number", f"the number of {what}"), COMPENSATIONS_MAX, "70506", what)
+    cursor.take_if("=")
+    return _whole(cursor.expect_kind("number", f"the number of {what}"), COMPENSATIONS_MAX, "21749", what)
 
 
 def _factor(cursor: Cursor, name: str) -> float:

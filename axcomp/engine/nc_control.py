@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from os import PathLike
 from typing import Any
 
+from ..kernel.motion import is_motion
 from ..kinds import KINDS
 from ..lists import Severity, reread_volumetric
 from ..model.machine import Machine
 from ..runtime.runtime import Runtime
-from .nc_commands import AxisCommand, Command, Variable, VolumetricSwitch, VolumetricUpdate, parse_block, parse_variable
+from .nc_commands import (
+    AxisCommand,
+    AxisVariable,
+    Command,
+    Variable,
+    VolumetricSwitch,
+    VolumetricUpdate,
+    parse_block,
+    parse_variable,
+)
 from .nc_scanner import Cursor, NcError, scan
 
 
@@ -22,11 +32,17 @@ class NcControl:
     runtime : Runtime
     lists : path or None
         Where ``UPDATE`` reads; None: there are no lists.
+
+    Attributes
+    ----------
+    on_update : callable
+        Called with the number of a volumetric compensation that was updated; what it returns is told, a sentence each.
     """
 
     def __init__(self, runtime: Runtime, lists: str | PathLike[str] | None) -> None:
         self._runtime = runtime
         self._lists = lists
+        self.on_update: Callable[[int], Iterable[str]] = lambda _: ()
         self._files: dict[tuple[int, int], str] = {}
         self._held: list[tuple[Any, str, Any, Any]] = []
 
@@ -37,8 +53,10 @@ class NcControl:
         for command in commands:
             if isinstance(command, AxisCommand):
                 _check_axis_command(command, machine)
-            elif isinstance(command, VolumetricSwitch | VolumetricUpdate | Variable):
-                self._check_index(command.index, command.place)
+            elif isinstance(command, VolumetricSwitch | VolumetricUpdate):
+                self._check_index(command.index, command.place, "21749")
+            elif isinstance(command, Variable | AxisVariable):
+                self._check_variable(command)
             else:
                 self._check_index(command.variable.index, command.variable.place)
                 if isinstance(command.value, Variable):
@@ -68,15 +86,20 @@ class NcControl:
         self._held.clear()
 
     def read(self, name: str) -> str | bool:
-        """Return the value of ``V.G.VOLCOMP[i].FILE[j]`` or ``.ACTIVE``; NcError for any other name."""
+        """Return the value of ``V.G.VOLCOMP[i].FILE[j]``, ``.ACTIVE`` or ``V.A.CROSS_COMP_ACTIVE.X`` and the like.
+
+        NcError for any other name.
+        """
         variable = _variable(name)
-        self._check_index(variable.index, variable.place)
+        self._check_variable(variable)
         return self._value(variable)
 
     def write(self, name: str, value: str) -> None:
         """Set ``V.G.VOLCOMP[i].FILE[j]``, for the next UPDATE; NcError for any other name."""
         variable = _variable(name)
-        self._check_index(variable.index, variable.place)
+        if isinstance(variable, AxisVariable):
+            raise NcError(variable.place, f"{variable} can only be read")
+        self._check_variable(variable)
         if variable.file is None:
             raise NcError(variable.place, f"{variable} can only be read")
         self._files[variable.index, variable.file] = value
@@ -85,12 +108,13 @@ class NcControl:
         if isinstance(command, AxisCommand):
             yield from self._switch_axis(command)
         elif isinstance(command, VolumetricSwitch):
+            yield from self._tell_motion(command.index)
             for volumetric in self._runtime.machine.volumetric:
                 if command.index in (None, volumetric.index):
                     self._switch_volumetric(volumetric.index, command)
         elif isinstance(command, VolumetricUpdate):
             yield from self._update(command)
-        elif isinstance(command, Variable):
+        elif isinstance(command, Variable | AxisVariable):
             yield f"{command} = {self._value(command)}"
         else:
             value = self._value(command.value) if isinstance(command.value, Variable) else command.value
@@ -134,9 +158,39 @@ class NcControl:
             what = f"volumetric compensation {command.index} keeps its old data"
             raise NcError(command.place, "; ".join([what, *errors]))
         self._runtime.update_volumetric(volumetric)
+        yield from self._tell_motion(command.index)
+        yield from self.on_update(command.index)
         yield from (str(finding) for finding in findings)
 
-    def _value(self, variable: Variable) -> str | bool:
+    def _tell_motion(self, index: int | None) -> Iterator[str]:
+        """Tell which axes move that a command would stop on the controller."""
+        runtime = self._runtime
+        places: set[int] = set()
+        for volumetric in runtime.machine.volumetric:
+            if index in (None, volumetric.index):
+                places.update(runtime.machine.members(volumetric))
+        step = runtime.tables.cycle_time
+        moving = [
+            runtime.machine.axes[place].name
+            for place in sorted(places)
+            if runtime.state.motion.axis[place].moving or is_motion(runtime.inputs.axis[place].velocity * step)
+        ]
+        if moving:
+            yield f"#VOLCOMP while {', '.join(moving)} moves: the controller stops the machine first."
+
+    def _check_variable(self, variable: Variable | AxisVariable) -> None:
+        if isinstance(variable, Variable):
+            self._check_index(variable.index, variable.place)
+            return
+        machine = self._runtime.machine
+        axis = machine.axes[_axis_index(variable, machine)]
+        if variable.kind not in axis.kinds:
+            raise NcError(variable.place, f"axis {axis.name} has no {variable.kind} compensation")
+
+    def _value(self, variable: Variable | AxisVariable) -> str | bool:
+        if isinstance(variable, AxisVariable):
+            outputs = self._runtime.outputs.axis[_axis_index(variable, self._runtime.machine)]
+            return outputs.active[KINDS[variable.kind].number]
         if variable.file is None:
             return self._runtime.outputs.volumetric[variable.index].active
         written = self._files.get((variable.index, variable.file))
@@ -145,21 +199,21 @@ class NcControl:
         one = next(one for one in self._runtime.machine.volumetric if one.index == variable.index)
         return dict(enumerate(one.files)).get(variable.file, "")
 
-    def _check_index(self, index: int | None, place: int) -> None:
+    def _check_index(self, index: int | None, place: int, code: str = "70506") -> None:
         known = [one.index for one in self._runtime.machine.volumetric]
         if index is not None and index not in known:
             there = f"there is only {', '.join(map(str, known))}" if known else "there is none"
-            raise NcError(place, f"there is no volumetric compensation {index}: {there}", "70506")
+            raise NcError(place, f"there is no volumetric compensation {index}: {there}", code)
 
 
-def _variable(name: str) -> Variable:
+def _variable(name: str) -> Variable | AxisVariable:
     cursor = Cursor(scan(name))
     variable = parse_variable(cursor)
     cursor.expect_kind("end", "nothing more")
     return variable
 
 
-def _axis_index(command: AxisCommand, machine: Machine) -> int:
+def _axis_index(command: AxisCommand | AxisVariable, machine: Machine) -> int:
     for index, axis in enumerate(machine.axes):
         if axis.name.upper() == command.axis:
             return index

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..kernel.record import zeros
 from ..kernel.volumetric_errors import errors_at
-from ..kernel.volumetric_model import FRAME, carry_to_workpiece, correction_at
+from ..kernel.volumetric_model import FRAME, carry_to_workpiece, correction_at, correction_with
 from ..model.machine import Axis, AxisType, Machine
 from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from ..runtime.compile import compile_tables
@@ -52,7 +52,7 @@ class TcpModel:
         found = np.empty((len(places), len(ERRORS)))
         for row, place in zip(found, places.tolist(), strict=True):
             errors = zeros(len(ERRORS))
-            errors_at(self._pool, self._table, place, errors)
+            errors_at(self._pool, self._table, place, [0] * len(ERRORS), errors)
             row[:] = errors
         return found
 
@@ -66,17 +66,22 @@ class TcpModel:
             row[:] = [actual[d] - nominal[d] for d in range(len(LINEAR))]
         return found
 
-    def corrections(self, places: Array, tool_lengths: Array, errors: Array) -> Array:
-        """Return what X, Y and Z must move so that the tool tip is where it should be, (n, 3), mm, with errors (n, 72).
+    def corrections(self, places: Array, tool_lengths: Array, errors: Array | None = None) -> Array:
+        """Return what X, Y and Z must move so that the tool tip is where it should be, (n, 3), mm.
 
-        Whether the lists negate a correction or leave it out is not in it. nan where the position is singular.
+        ``errors``: (n, 72), as they are there; None: those that are known, where the machine then stands. Whether the
+        lists negate a correction or leave it out is not in it. nan where the position is singular.
         """
         found = np.full((len(places), len(LINEAR)), np.nan)
-        rows = zip(found, places.tolist(), tool_lengths.tolist(), errors.tolist(), strict=True)
-        for row, place, tool_length, wrong in rows:
+        for row, place, tool_length in zip(range(len(places)), places.tolist(), tool_lengths.tolist(), strict=True):
             correction = zeros(len(LINEAR))
-            if correction_at(self._table, place, tool_length, wrong, correction):
-                row[:] = correction
+            if errors is None:
+                section = [0] * len(ERRORS)
+                solved = correction_at(self._pool, self._table, place, tool_length, section, correction)
+            else:
+                solved = correction_with(self._table, place, tool_length, errors[row].tolist(), correction)
+            if solved:
+                found[row] = correction
         return found
 
     def derivatives(

@@ -35,7 +35,7 @@ class Sought:
     nodes : array, shape (k,)
         Positions at which its values are sought, mm or °; one that does not matter for a constant.
     periodic : bool
-        The value at the first node, 0°, is that at 360° too.
+        The value at the first node is that one turn later too.
     """
 
     name: str
@@ -50,7 +50,8 @@ class Sought:
         at = places[:, LETTERS.index(self.argument)]
         if not self.periodic:
             return hats(self.nodes, at)
-        around = hats(np.append(self.nodes, FULL_TURN), np.mod(at, FULL_TURN))
+        first = self.nodes[0]
+        around = hats(np.append(self.nodes, first + FULL_TURN), first + np.mod(at - first, FULL_TURN))
         around[:, 0] += around[:, -1]
         return around[:, :-1]
 
@@ -109,8 +110,9 @@ def _nodes(letter: str, at: Array, nodes_max: int) -> tuple[Array, bool]:
     if letter in ROTARY:
         folded = np.unique(np.round(np.mod(distinct, FULL_TURN), _DIGITS))
         gaps = np.diff(np.append(folded, folded[0] + FULL_TURN))
-        if len(folded) > 2 and gaps.max() <= 2.0 * np.median(gaps):
-            if folded[0] == 0.0 and len(folded) <= nodes_max:
+        full = distinct[-1] - distinct[0] >= FULL_TURN
+        if len(folded) > 2 and (full or gaps.max() <= 2.0 * np.median(gaps)):
+            if len(folded) <= nodes_max:
                 return np.asarray(folded, dtype=np.float64), True
             around = _equidistant(0.0, FULL_TURN, min(len(folded), nodes_max) + 1)
             return around[:-1], True

@@ -108,7 +108,7 @@ class Identification:
                 continue
             nodes, column = sought.nodes, values
             if sought.periodic:
-                nodes, column = np.append(nodes, FULL_TURN), np.append(values, values[0])
+                nodes, column = np.append(nodes, nodes[0] + FULL_TURN), np.append(values, values[0])
             rows = tuple((float(node),) for node in nodes)
             found.append(ErrorTable(sought.name, tuple(column.tolist()), sought.argument, rows))
         return tuple(found)

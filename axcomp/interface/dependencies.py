@@ -19,6 +19,8 @@ Inputs = frozenset[Input]
 
 COMMANDS_OF_VOLUMETRIC = ("enable", "no_move", "factor_x", "factor_y", "factor_z")
 
+OF_MEMBERS = ("setpoint", "velocity", "referenced", "fault")
+
 COMMANDS = ((None, "reset"), (None, "program_end"), (None, "reload"))
 
 
@@ -30,7 +32,7 @@ def volumetric_input(volumetric: Volumetric, name: str) -> str:
 def volumetric_switch(machine: Machine, volumetric: Volumetric) -> Inputs:
     """Return what decides whether a volumetric compensation is on: s_limit makes it depend on its corrections."""
     members = machine.members(volumetric)
-    own: list[Input] = [(place, name) for place in members for name in ("setpoint", "referenced", "fault")]
+    own: list[Input] = [(place, name) for place in members for name in OF_MEMBERS]
     own += [(None, volumetric_input(volumetric, name)) for name in COMMANDS_OF_VOLUMETRIC]
     return frozenset(own).union(((None, "tool_length"), *COMMANDS))
 
@@ -68,8 +70,10 @@ class Dependencies:
         return [kind for kind in kinds_of(self.axis) if kind.adds_to == adds_to]
 
     def _volumetric(self) -> Inputs:
-        found = [one for one in self.machine.volumetric if self.axis.number in self.machine.corrected_by(one)]
-        return self._union(volumetric_switch(self.machine, one) for one in found)
+        """Return what volumetric compensations need; s_limit bounds their sum, so one depends on the other."""
+        if not any(self.index in self.machine.members(one) for one in self.machine.volumetric):
+            return frozenset()
+        return self._union(volumetric_switch(self.machine, one) for one in self.machine.volumetric)
 
     def _correction(self, kind: Kind[Any]) -> Inputs:
         """Return what a contribution is computed from: its weight, and its value at full weight.

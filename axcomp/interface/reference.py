@@ -14,6 +14,7 @@ from .variables import (
     MACHINE_BLOCK,
     OF_MACHINE,
     OF_VOLUMETRIC,
+    PARTICIPANT,
     VOLUMETRIC,
     VOLUMETRIC_BLOCK,
     Declaration,
@@ -90,7 +91,7 @@ def reference_page() -> str:
     """Return the page as Markdown."""
     head = HEAD.format(block=BLOCK, machine=MACHINE_BLOCK, axis=AXIS_BLOCK, volumetric=VOLUMETRIC_BLOCK)
     machine = _table(OF_MACHINE, "")
-    volumetric = _table([d for d in AXIS_DECLARATIONS if d.kind == VOLUMETRIC], "NAME.")
+    volumetric = _table([d for d in AXIS_DECLARATIONS if d.kind in (PARTICIPANT, VOLUMETRIC)], "NAME.")
     volumetrics = _table(OF_VOLUMETRIC, "volumetric[j].")
     axis = _table([d for d in AXIS_DECLARATIONS if not d.kind], "NAME.")
     kinds = "\n".join(
@@ -99,7 +100,8 @@ def reference_page() -> str:
     )
     errors = "\n".join(f"| {number} | {meaning} |" for number, meaning in ERRORS.items())
     tables = f"## Of the machine\n\n{machine}\n\n## Of every axis\n\n{axis}\n{kinds}\n"
-    tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves\n\n{volumetric}\n"
+    of_others = "of the other axes that take part `stop_request` only"
+    tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves; {of_others}\n\n{volumetric}\n"
     tables += f"\n## Of every volumetric compensation\n\n{volumetrics}\n"
     return f"{head}\n{tables}\n{STEPS}{errors}\n"
 
@@ -110,8 +112,8 @@ def readme_section() -> str:
     of_kinds = [d for d in AXIS_DECLARATIONS if d.kind == FIRST]
     common = {d.name.removeprefix(FIRST) for d in of_kinds}
     others = [d for d in AXIS_DECLARATIONS if d.kind in KINDS and d.name.removeprefix(d.kind) not in common]
-    others += [d for d in AXIS_DECLARATIONS if d.kind == VOLUMETRIC]
-    having = ", ".join(dict.fromkeys(f"with {d.kind}" for d in others))
+    others += [d for d in AXIS_DECLARATIONS if d.kind in (PARTICIPANT, VOLUMETRIC)]
+    having = ", ".join(dict.fromkeys(f"with {d.kind}" for d in others if d.kind != PARTICIPANT))
     rows = ["| | Inputs | Outputs |", "| --- | --- | --- |"]
     for label, declarations, prefix in (
         ("of every axis", every_axis, "NAME."),

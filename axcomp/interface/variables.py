@@ -28,6 +28,9 @@ VOLUMETRIC_BLOCK = AXIS_BLOCK + AXES_MAX  # … 37; the next blocks are free
 VOLUMETRIC = "volumetric"
 """Kind of what appears only where there are volumetric compensations."""
 
+PARTICIPANT = "participant"
+"""Kind of what an axis has that takes part in one, whether it is corrected or not."""
+
 POSITION, VELOCITY, ACCELERATION = "{}", "{}/s", "{}/s2"
 """Units of an axis' quantities; {} stands for mm or deg."""
 
@@ -120,7 +123,9 @@ OF_AXIS = (
         kind=_OF_CURRENT.name,
         path=f"contribution[{_OF_CURRENT.number}]",
     ),
-    Declaration(14, "stop_request", "output", False, "The axis is to stop: s_limit was exceeded", kind=VOLUMETRIC),
+    Declaration(
+        14, "stop_request", "output", False, "A volumetric compensation asks the axis to stop", kind=PARTICIPANT
+    ),
     Declaration(15, "volumetric.correction", "output", 0.0, "Sum of all volumetric corrections", POSITION, VOLUMETRIC),
 )
 
@@ -262,6 +267,8 @@ def every_slot(
 
 def _present(machine: Machine, axis: Axis) -> Iterator[Declaration]:
     kinds = {"", *axis.kinds}
+    if any(machine.index_of(axis.number) in machine.members(one) for one in machine.volumetric):
+        kinds.add(PARTICIPANT)
     if any(axis.number in machine.corrected_by(one) for one in machine.volumetric):
         kinds.add(VOLUMETRIC)
     absent = {own.name for kind in kinds_of(axis) for own in kind.inputs if not own.present(getattr(axis, kind.name))}

@@ -16,7 +16,7 @@ from .record import Vec
 from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, Inputs, Outputs, State, Tables
 from .shift import absorb_switch, release_shift
 from .switching import blend_in, contribution_of
-from .volumetric import compensate_volume
+from .volumetric import compensate_volume, report_tool_length
 
 LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could overflow
 
@@ -42,6 +42,8 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
         else:
             correct_axis(tables, pool, state, inputs.axis[i], outputs.axis[i], i)
             outputs.axis[i].error = axis.error
+    if tables.volumetrics > 0:
+        report_tool_length(tables, inputs, outputs)
 
 
 def accept(tables: Tables, axis: AxisState, motion: AxisMotion, inputs: Inputs, i: int) -> None:

@@ -1,7 +1,8 @@
 """The errors of a machine at a position: interpolation over any number of axes (manual 003, 6.4).
 
 On a grid: multilinear, the edge held outside. Scattered: Shepard's weights 1/distance², exact at the nodes. On a path:
-at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held.
+at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held; where the path
+crosses itself the section that is followed counts.
 """
 
 from __future__ import annotations
@@ -13,15 +14,20 @@ from .record import Vec, zeros
 from .volumetric_records import ERRORS, INTERPOLATE_GRID, INTERPOLATE_SCATTER, LETTERS, ErrorBlock, VolumetricTable
 
 AT_NODE = 1e-30  # squared distance below which a position is a node
+BESIDE = 1.0  # mm², squared distance from the section of a path that is followed, up to which it is never left
 
 
 def errors_at(
     pool: Vec,
     table: VolumetricTable,
     position: Annotated[list[float], LETTERS],
+    section: Annotated[list[int], ERRORS],
     errors: Annotated[list[float], ERRORS],
 ) -> None:
-    """Put the errors at a position (mm, °) into ``errors``, which is 0 before."""
+    """Put the errors at a position (mm, °) into ``errors``, which is 0 before.
+
+    ``section``: for each block the section of its path that is followed, counted from 1; 0: not known yet.
+    """
     for k in range(table.constants):
         errors[int(pool[table.constant + k])] = pool[table.constant + table.constants + k]
     x = zeros(LETTERS)
@@ -38,7 +44,7 @@ def errors_at(
         elif block.interpolation == INTERPOLATE_SCATTER:
             add_from_scatter(pool, block, x, errors)
         else:
-            add_from_path(pool, block, x, errors)
+            section[b] = add_from_path(pool, block, x, section[b], errors)
 
 
 def add_from_line(pool: Vec, block: ErrorBlock, x: float, errors: Annotated[list[float], ERRORS]) -> None:
@@ -135,32 +141,63 @@ def square_distance(pool: Vec, block: ErrorBlock, n: int, x: Annotated[list[floa
 
 
 def add_from_path(
-    pool: Vec, block: ErrorBlock, x: Annotated[list[float], LETTERS], errors: Annotated[list[float], ERRORS]
-) -> None:
-    """Add the values at the point of the polyline that is nearest; of two as near the first one."""
-    nearest = 0
+    pool: Vec,
+    block: ErrorBlock,
+    x: Annotated[list[float], LETTERS],
+    followed: int,
+    errors: Annotated[list[float], ERRORS],
+) -> int:
+    """Add the values at the nearest point of the polyline, and return its section, counted from 1.
+
+    Of sections as near the first one counts; one that is followed, and its neighbours, until another is much nearer.
+    """
+    section = 0
     share = 0.0
     shortest = -1.0
+    own = 0
+    own_share = 0.0
+    own_shortest = -1.0
     for n in range(block.nodes - 1):
-        start = block.knots[0] + n * block.arguments
-        along = 0.0
-        square = 0.0
-        for d in range(block.arguments):
-            direction = pool[start + block.arguments + d] - pool[start + d]
-            along += (x[d] - pool[start + d]) * direction
-            square += direction * direction
-        s = 0.0
-        if square > 0.0:
-            s = min(max(along / square, 0.0), 1.0)
-        distance = 0.0
-        for d in range(block.arguments):
-            foot = pool[start + d] + s * (pool[start + block.arguments + d] - pool[start + d])
-            distance += (x[d] - foot) * (x[d] - foot)
+        s = share_along(pool, block, n, x)
+        distance = square_from_section(pool, block, n, s, x)
         if shortest < 0.0 or distance < shortest:
             shortest = distance
-            nearest = n
+            section = n
             share = s
-    at = block.values + nearest * block.errors
+        if followed > 0 and abs(n + 1 - followed) <= 1 and (own_shortest < 0.0 or distance < own_shortest):
+            own_shortest = distance
+            own = n
+            own_share = s
+    at_end = (own == 0 and own_share == 0.0) or (own == block.nodes - 2 and own_share == 1.0)
+    if own_shortest >= 0.0 and not at_end and (own_shortest < BESIDE or own_shortest < 4.0 * shortest):
+        section = own
+        share = own_share
+    at = block.values + section * block.errors
     add_node(pool, block, at, 1.0 - share, errors)
     if share > 0.0:
         add_node(pool, block, at + block.errors, share, errors)
+    return section + 1
+
+
+def share_along(pool: Vec, block: ErrorBlock, n: int, x: Annotated[list[float], LETTERS]) -> float:
+    """Return where the point of a section that is nearest lies along it, 0 … 1."""
+    start = block.knots[0] + n * block.arguments
+    along = 0.0
+    square = 0.0
+    for d in range(block.arguments):
+        direction = pool[start + block.arguments + d] - pool[start + d]
+        along += (x[d] - pool[start + d]) * direction
+        square += direction * direction
+    if square > 0.0:
+        return min(max(along / square, 0.0), 1.0)
+    return 0.0
+
+
+def square_from_section(pool: Vec, block: ErrorBlock, n: int, s: float, x: Annotated[list[float], LETTERS]) -> float:
+    """Return the squared distance from the point at share s of a section."""
+    start = block.knots[0] + n * block.arguments
+    distance = 0.0
+    for d in range(block.arguments):
+        foot = pool[start + d] + s * (pool[start + block.arguments + d] - pool[start + d])
+        distance += (x[d] - foot) * (x[d] - foot)
+    return distance

@@ -3,13 +3,15 @@
 With R(a, b, c) = Rz(c)·Ry(b)·Rx(a), e the direction of an axis, P its centre, q its position and t = (X0 + EX, …):
 
 linear                A = Trans(R(A0, B0, C0)·e·q) · Trans(t) · R(EA, EB, EC)
-rotary, default       A = Trans(P) · Trans(t) · R(A0 + EA, …) · Rot(e, q) · Trans(−P)
-rotary, alternative   A = Trans(P) · Trans(EX, …) · R(EA, …) · L·Rot(e, q)·L⁻¹ · Trans(−P), L = Trans(X0, …)·R(A0, …)
+rotary, default       A = Trans(t) · R(A0 + EA, …) · Trans(P) · Rot(e, q) · Trans(−P)
+rotary, alternative   A = Trans(EX, …) · R(EA, …) · L · Trans(P) · Rot(e, q) · Trans(−P) · L⁻¹,
+                      L = Trans(X0, …)·R(A0, …)
 
 W(q) = A₁⁻¹ … A_k⁻¹ · A_{k+1} … A_n · (P0 + tool length · N0), k = workpiece axes. Every A is x ↦ M·x + o, M a rotation.
 
-All errors are those at q, so W is linear in the corrections of X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four
-columns carries W and J from the tool to the workpiece. Matrices are row by row.
+The errors are those where the machine stands, at q + Δ. With errors that are given, W is linear in the corrections of
+X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four columns carries W and J from the tool to the workpiece. Matrices are
+row by row.
 """
 
 from __future__ import annotations
@@ -17,25 +19,77 @@ from __future__ import annotations
 from typing import Annotated
 
 from .interpolation import fold
-from .record import zeros
+from .record import Vec, zeros
 from .trigonometry import HALF_PI, cosine, sine
+from .volumetric_errors import errors_at
 from .volumetric_records import A0, B0, C0, EA, EB, EC, ERRORS, ERRORS_OF_AXIS, EX, LETTERS, LINEAR, X0, VolumetricTable
 
 DEGREE = HALF_PI / 90.0
 FRAME = 12  # W, then the columns of J: those of X, Y and Z in their order from the tool
+EVALUATIONS = 3  # of the errors in a cycle
+SETTLED = 1e-6  # mm; what another evaluation would change less is left
 RESIDUAL = 1e-9  # mm
 ITERATIONS = 5
 SINGULAR = 1e-6  # volume spanned by the columns of J, which are unit vectors
 
 
 def correction_at(
+    pool: Vec,
+    table: VolumetricTable,
+    position: Annotated[list[float], LETTERS],
+    tool_length: float,
+    section: Annotated[list[int], ERRORS],
+    correction: Annotated[list[float], LINEAR],
+) -> bool:
+    """Put Δ with W(q + Δ) = nominal W(q) into ``correction``, which is 0 before; False: X, Y and Z are dependent here.
+
+    The errors are evaluated at q, and where these take the axes again until nothing changes any more. How much they can
+    change is known from the steepness of the tables: most machines need two evaluations.
+    ``section``: see ``errors_at``.
+    """
+    place = zeros(LETTERS)
+    arm = abs(tool_length) + table.reach
+    for letter in range(LETTERS):
+        place[letter] = position[letter]
+        if letter < LINEAR:
+            arm += abs(position[letter])
+    found = zeros(LINEAR)
+    for _ in range(EVALUATIONS):
+        if not correction_at_place(pool, table, position, place, tool_length, section, found):
+            return False
+        change = 0.0
+        for d in range(LINEAR):
+            change += abs(found[d] - correction[d])
+            correction[d] = found[d]
+            place[d] = position[d] + found[d]
+        if change * (table.steepness + table.angular_steepness * arm) < SETTLED:
+            return True
+    return True
+
+
+def correction_at_place(
+    pool: Vec,
+    table: VolumetricTable,
+    position: Annotated[list[float], LETTERS],
+    place: Annotated[list[float], LETTERS],
+    tool_length: float,
+    section: Annotated[list[int], ERRORS],
+    correction: Annotated[list[float], LINEAR],
+) -> bool:
+    """Put Δ at a position into ``correction``, with the errors at another place."""
+    errors = zeros(ERRORS)
+    errors_at(pool, table, place, section, errors)
+    return correction_with(table, position, tool_length, errors, correction)
+
+
+def correction_with(
     table: VolumetricTable,
     position: Annotated[list[float], LETTERS],
     tool_length: float,
     errors: Annotated[list[float], ERRORS],
     correction: Annotated[list[float], LINEAR],
 ) -> bool:
-    """Put Δ with W(q + Δ) = nominal W(q) into ``correction``; False: X, Y and Z are dependent here.
+    """Put Δ into ``correction`` for errors that are given; False: X, Y and Z are dependent here.
 
     Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
     position is singular.
@@ -180,11 +234,11 @@ def nominal_rotary_axis(
 ) -> None:
     """Put the map of A, B or C without errors into ``m`` and ``o``; ``q`` in °."""
     axis = zeros(3)
+    center = zeros(3)
     for d in range(LINEAR):
         axis[d] = table.direction[3 * letter + d]
-        o[d] = 0.0
-    rotation_about(axis, q, m)
-    about_center(table, letter, m, o)
+        center[d] = table.center[3 * (letter - LINEAR) + d]
+    turn_about(axis, center, q, m, o)
 
 
 def rotary_axis(
@@ -198,42 +252,43 @@ def rotary_axis(
     """Put the map of A, B or C into ``m`` and ``o``; ``q`` in °."""
     e = ERRORS_OF_AXIS * letter
     axis = zeros(3)
+    center = zeros(3)
+    tilt = zeros(9)
     for d in range(LINEAR):
         axis[d] = table.direction[3 * letter + d]
-    tilt = zeros(9)
+        center[d] = table.center[3 * (letter - LINEAR) + d]
     if table.alternative:
-        # L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …).
+        # L · Trans(P) · Rot(e, q) · Trans(−P) · L⁻¹ turns about R(A0, …)·e through L·P.
         rotation(errors[e + A0], errors[e + B0], errors[e + C0], tilt)
         turn(tilt, axis)
-        rotation_about(axis, q, m)
+        turn(tilt, center)
         for d in range(LINEAR):
-            o[d] = -errors[e + X0 + d]
-        turn(m, o)
-        for d in range(LINEAR):
-            o[d] += errors[e + X0 + d]
+            center[d] += errors[e + X0 + d]
         rotation(errors[e + EA], errors[e + EB], errors[e + EC], tilt)
-        turn(tilt, o)
-        for d in range(LINEAR):
-            o[d] += errors[e + EX + d]
     else:
-        rotation_about(axis, q, m)
         rotation(
             errors[e + A0] + errors[e + EA], errors[e + B0] + errors[e + EB], errors[e + C0] + errors[e + EC], tilt
         )
-        for d in range(LINEAR):
-            o[d] = errors[e + X0 + d] + errors[e + EX + d]
+    turn_about(axis, center, q, m, o)
     multiply_from_left(tilt, m)
-    about_center(table, letter, m, o)
-
-
-def about_center(
-    table: VolumetricTable, letter: int, m: Annotated[list[float], 9], o: Annotated[list[float], 3]
-) -> None:
-    """Let a map about the origin act about the centre of A, B or C."""
-    center = zeros(3)
+    turn(tilt, o)
     for d in range(LINEAR):
-        center[d] = table.center[3 * (letter - LINEAR) + d]
-        o[d] += center[d]
+        o[d] += errors[e + EX + d]
+        if not table.alternative:
+            o[d] += errors[e + X0 + d]
+
+
+def turn_about(
+    axis: Annotated[list[float], 3],
+    center: Annotated[list[float], 3],
+    q: float,
+    m: Annotated[list[float], 9],
+    o: Annotated[list[float], 3],
+) -> None:
+    """Put the turn by ``q`` in ° about an axis through a point into ``m`` and ``o``; the point is lost."""
+    rotation_about(axis, q, m)
+    for d in range(LINEAR):
+        o[d] = center[d]
     turn(m, center)
     for d in range(LINEAR):
         o[d] -= center[d]

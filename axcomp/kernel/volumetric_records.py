@@ -76,6 +76,10 @@ class VolumetricTable:
     chain: Annotated[list[int], LETTERS]  # letters from the workpiece to the tool
     workpiece_axes: int
     exact: Annotated[list[bool], LETTERS]  # the axis has no errors
+    steepness: float  # bound of how much the lengths among the errors change with X, Y and Z, mm per mm
+    angular_steepness: float  # the same of the angles, rad per mm
+    reach: float  # lever of an angle besides X, Y, Z and the tool length, mm
+    velocity: Annotated[list[float], LINEAR]  # largest change by a filter in a cycle, mm; 0: not limited
     column: Annotated[list[int], LINEAR]  # how many linear axes are between X, Y or Z and the tool
     alternative: bool
     tool_position: Annotated[list[float], LINEAR]
@@ -91,24 +95,34 @@ class VolumetricTable:
 
 @dataclass(slots=True)
 class VolumetricState:
-    """What a volumetric compensation remembers. ``weight`` goes 0 … 1 and back while it switches."""
+    """What a volumetric compensation remembers.
+
+    Its filters go from 0 to 1 and back along ``smooth``: of the switch, of the tool length, and of releasing shifts.
+    """
 
     started: bool
     enable: bool  # the input in the last cycle: its edges are the commands
     command: bool  # what was last commanded
     no_move: bool  # the command came with NO_MOVE
-    wanted_factor: Annotated[list[float], LINEAR]  # sign · CFACT of the command
+    wanted_factor: Annotated[list[float], LINEAR]  # CFACT of the command
     on: bool  # the command, while it can be obeyed
-    step: int
-    weight: float
+    progress: float  # of the switch
+    weight: float  # the same along the filter
     factor: Annotated[list[float], LINEAR]  # the wanted one when it was last switched on
     taking_part: Annotated[list[bool], LINEAR]  # False: dropped, its correction has become a shift
     absorbed: Annotated[list[bool], LINEAR]  # what its correction changes in this cycle goes into the shift
+    waiting: Annotated[list[bool], LINEAR]  # its axis is still in the motion in which this came about
     value: Annotated[list[float], LINEAR]  # correction at full weight
+    section: Annotated[list[int], ERRORS]  # of its path that a block follows, counted from 1; 0: not known yet
     contribution: Annotated[list[float], LINEAR]  # weight · value
-    shift: Annotated[list[float], LINEAR]  # what was absorbed: it stays until the next switch
+    shift: Annotated[list[float], LINEAR]  # what was absorbed: it stays until the next motion or switch
     held_shift: Annotated[list[float], LINEAR]  # the shift when its release began
-    release_step: Annotated[list[int], LINEAR]  # of its release: cycles … 0
+    release: Annotated[list[float], LINEAR]  # how much of its release is left
+    tool_length: float  # in use, mm
+    old_tool_length: float  # in use when the last change came
+    new_tool_length: float  # as it was last given
+    tool_progress: float
+    tool_change: Annotated[list[float], LINEAR]  # of the correction by the change that is under way
 
 
 @dataclass(slots=True)

@@ -61,12 +61,10 @@ VOLUMETRIC = (
         _id(14),
         values=_MODES,
     ),
-    Parameter("enable_splicing", "Repeats the record at 0° at 360°", DataType.BOOLEAN, 0, _id(15)),
+    Parameter("enable_splicing", "Repeats the first record of a turn at its end", DataType.BOOLEAN, 0, _id(15)),
     Parameter("diagnosis_file", "Spreadsheet of all records that is written", DataType.STRING, "", _id(16)),
     Parameter("manual_activation", "On only by command", DataType.BOOLEAN, 0, _id(17)),
-    Parameter(
-        "filter_steps", "Cycles of a switch; 0: at once", DataType.UNS16, 20, _id(18), Quantity.CYCLES, "[0, 10000]"
-    ),
+    Parameter("filter_steps", "Cycles of a switch; 0: at once", DataType.UNS32, 20, _id(18), Quantity.CYCLES),
     Parameter("associate_to_channel", "Program end while on is an error", DataType.BOOLEAN, 0, _id(19)),
     Parameter("use_axis_offsets", "Offsets of the axes count; not modelled", DataType.BOOLEAN, 0, _id(20)),
 )

@@ -1,7 +1,8 @@
 """Etalon exchange files of the volumetric compensation (manual 003, 6.3.3).
 
 ``[NAME]``, then ``VALUE = x`` or ``Gridpoints = { position value … }`` with one pair a line; the position is that of
-the axis the parameter's name ends in. ``//`` begins a comment, also right behind a value. ``[HEADER]`` holds free text.
+the axis the parameter's name ends in. ``//`` begins a comment, also right behind a value. ``[HEADER]`` holds free text;
+any other section that is no parameter is passed over. Numbers may have decimal commas, lines and cells quotes.
 Values are in mm and rad, positions in mm and °.
 """
 
@@ -9,17 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ..model.volumetric import PARAMETERS
 from .findings import Findings
-from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers
+from .volumetric_blocks import ELISIONS, ParameterBlock, check_values, note_elision, numbers
 
 _FREE_TEXT = "HEADER"
+_PLAIN = str.maketrans(";", " ", '"')
 
 
 def read_etalon(text: str, file: str, findings: Findings) -> list[ParameterBlock]:
     """Return the blocks of a file, one a parameter; ``findings`` grows by what is wrong. Never raises on content."""
     reader = _Reader(file, findings)
     for line, written in enumerate(text.split("\n"), 1):
-        content = written.partition("//")[0].strip()
+        content = written.partition("//")[0].translate(_PLAIN).strip()
         if content:
             reader.take(content, line)
     return reader.finish()
@@ -45,7 +48,7 @@ class _Reader:
         if content.startswith("["):
             self._end_section()
             self._begin_section(content)
-        elif self._name == _FREE_TEXT:
+        elif self._name not in PARAMETERS:
             return
         elif content in ELISIONS:
             note_elision(content, self._file, line, self._findings)
@@ -66,13 +69,14 @@ class _Reader:
     def _begin_section(self, content: str) -> None:
         name, closed, rest = content[1:].partition("]")
         self._name = name.strip().upper()
-        if not closed or rest.strip():
+        if (not closed or rest.strip()) and self._name in PARAMETERS:
             self._note("AXC-SYNTAX", f"A section is [NAME] alone, not {content!r}; it is read as [{self._name}].")
         self._block = ParameterBlock(self._file, self._line, (), (self._name,))
         self._has_records = False
-        if self._name == _FREE_TEXT or not check_name(self._name, self._file, self._line, self._findings):
-            return
-        if self._name in self._blocks:
+        if self._name not in PARAMETERS:
+            if self._name != _FREE_TEXT:
+                self._note("AXC-SECTION", f"[{self._name}] is no parameter; it is passed over.")
+        elif self._name in self._blocks:
             self._note("70469", f"[{self._name}] is there twice; the compensation stays off.")
         else:
             self._blocks[self._name] = self._block

@@ -122,6 +122,10 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-RECORD": (_ERROR, "A record has too many or too few columns, or one that is no number"),
     "AXC-NO-RECORD": (_WARNING, "A parameter is named but has no record; it is not taken"),
     "AXC-MAGNITUDE": (_ERROR, "A parameter has a value that no machine has: it is in another unit"),
+    "AXC-SECTION": (_WARNING, "A section of an Etalon exchange file is no parameter; it is passed over"),
+    "AXC-LARGE": (_WARNING, "An error so large that it can only be in µm or degrees"),
+    "AXC-OPEN": (_WARNING, "A table jumps while a rotary axis goes on turning"),
+    "AXC-SPLICING": (_WARNING, "enable_splicing changes nothing"),
     "AXC-CONSTANT": (_ERROR, "A parameter that describes the machine depends on positions"),
     "AXC-ARGUMENTS": (_ERROR, "A parameter depends on different axes in different places"),
     "AXC-POLYLINE": (_ERROR, "PATH is asked for over axes that make no polyline"),
@@ -131,6 +135,7 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-VECTOR": (_WARNING, "A direction is not scaled to length 1; it is scaled, or left out if it is 0"),
     "AXC-SINGULAR": (_ERROR, "The directions of X, Y and Z lie in one plane"),
     "AXC-LIMIT": (_ERROR, "An axis to be compensated has no s_limit (P-AXIS-00525)"),
+    "AXC-V-LIMIT": (_WARNING, "An axis to be compensated has no v_limit (P-AXIS-00526)"),
     "AXC-NOT-MODELLED": (_WARNING, "The controller has this function, the model has not"),
     # Judgement of tables that can be read
     "AXC-SIGN": (_INFO, "A table makes a measured error smaller"),

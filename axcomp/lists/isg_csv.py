@@ -1,19 +1,23 @@
 """ISG CSV parameter files of the volumetric compensation (manual 003, 6.3.2).
 
 A header names the columns, axes and parameters in any order; the records follow, one a line. Columns are separated by
-blanks, tabs, commas or semicolons. ``//`` begins a comment; a line that begins with ``#`` ends the block, and the next
+blanks, tabs or semicolons; commas are decimal ones, or separate too where the columns are not enough without. Cells may
+be quoted. ``//`` begins a comment; a line that begins with ``#`` ends the block, and the next
 line is a new header. Values are in mm and rad, positions of axes in mm and °.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from ..model.volumetric import LETTERS
 from .findings import Findings
 from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers
 
-_SEPARATORS = str.maketrans(",;", "  ")
+_SEPARATORS, _COMMAS = str.maketrans(";", " "), str.maketrans(",;", "  ")
+_CELL = re.compile(r'"([^"]*)"|([^\s;"]+)')
+_CELL_OR_COMMA = re.compile(r'"([^"]*)"|([^\s;,"]+)')
 
 
 def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBlock]:
@@ -21,7 +25,8 @@ def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBloc
     headers: list[_Columns] = []
     columns: _Columns | None = None
     for line, written in enumerate(text.split("\n"), 1):
-        cells = written.partition("//")[0].translate(_SEPARATORS).split()
+        content = written.partition("//")[0]
+        cells = _split(content, at_commas=True) if columns is None else columns.split(content)
         if not cells:
             continue
         if cells[0].startswith("#"):
@@ -32,7 +37,7 @@ def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBloc
             if not cells:
                 continue
         if columns is None:
-            columns = _Columns([cell.upper() for cell in cells], file, line, findings)
+            columns = _Columns(content, [cell.upper() for cell in cells], file, line, findings)
             headers.append(columns)
         else:
             columns.take(cells, line, findings)
@@ -44,11 +49,19 @@ def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBloc
     return [header.block for header in headers if header.block.rows]
 
 
+def _split(content: str, at_commas: bool) -> list[str]:
+    if '"' not in content:
+        return content.translate(_COMMAS if at_commas else _SEPARATORS).split()
+    return [quoted.strip() or plain for quoted, plain in (_CELL_OR_COMMA if at_commas else _CELL).findall(content)]
+
+
 class _Columns:
     """A header: which column of its records goes where."""
 
-    def __init__(self, labels: list[str], file: str, line: int, findings: Findings) -> None:
+    def __init__(self, content: str, labels: list[str], file: str, line: int, findings: Findings) -> None:
         self._width = len(labels)
+        self._decimal_commas = ";" in content or "\t" in content
+        self._at_commas = "," in content and not self._decimal_commas
         arguments: dict[str, int] = {}
         names: dict[str, int] = {}
         for place, label in enumerate(labels):
@@ -63,6 +76,16 @@ class _Columns:
         self._as_written = self._places == list(range(self._width))
         self.block = ParameterBlock(file, line, tuple(arguments), tuple(names))
         self.has_records = False
+
+    def split(self, content: str) -> list[str]:
+        """Return the cells of a record, of whose commas the header or else their number says what they are."""
+        if self._at_commas:
+            return _split(content, at_commas=True)
+        cells = _split(content, at_commas=False)
+        if "," not in content or self._decimal_commas:
+            return cells
+        complete = len(cells) == self._width and not any(cell.startswith(",") or cell.endswith(",") for cell in cells)
+        return cells if complete else _split(content, at_commas=True)
 
     def take(self, cells: list[str], line: int, findings: Findings) -> None:
         """Add a record, or note what is wrong with it."""

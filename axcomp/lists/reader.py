@@ -227,6 +227,7 @@ class _MachineReader:
                     modulo=axis.modulo,
                     backlash_cycles=axis.backlash_cycles,
                     volumetric_limit=axis.s_limit or None,
+                    volumetric_velocity=axis.v_limit or None,
                     gantry_master=axis.gantry_master or None,
                     **acting.get(axis.number, _Acting({}, {})).arguments(),
                 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from ..model.volumetric import LENGTH_MAX, LETTERS, PARAMETERS, largest
+from ..model.volumetric import ERRORS, LENGTH_MAX, LETTERS, PARAMETERS, is_angle, largest
 from .findings import Findings
 
 ELISIONS = frozenset(("...", "…", ":"))
@@ -47,9 +47,9 @@ def check_name(name: str, file: str, line: int, findings: Findings) -> bool:
 
 
 def numbers(cells: list[str], file: str, line: int, parameter: str, findings: Findings) -> list[float] | None:
-    """Return the numbers of a record; None, with a finding, if a cell is none."""
+    """Return the numbers of a record, which may have decimal commas; None, with a finding, if a cell is none."""
     try:
-        row = [float(cell) for cell in cells]
+        row = [float(cell if "." in cell else cell.replace(",", ".", 1)) for cell in cells]
     except ValueError:
         row = [math.nan]
     # Python takes digits grouped by _ and names of infinity for numbers; a parameter file does not.
@@ -75,3 +75,10 @@ def check_values(block: ParameterBlock, findings: Findings) -> None:
             unit = "mm" if bound == LENGTH_MAX else "rad"
             message = f"{label} = {value:g} is beyond ±{bound:g} {unit}; the compensation stays off."
             findings.add("AXC-MAGNITUDE", block.file, block.lines[beyond], label, message)
+        elif label in ERRORS:
+            plain, unit, other = (0.1, "rad", "°") if is_angle(label) else (10.0, "mm", "µm")
+            large = next((i for i, row in enumerate(block.rows) if abs(row[column]) > plain), None)
+            if large is not None:
+                value = block.rows[large][column]
+                message = f"{label} = {value:g} {unit} is no error of a machine: it may be in {other}."
+                findings.add("AXC-LARGE", block.file, block.lines[large], label, message)

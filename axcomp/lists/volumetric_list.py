@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 from ..kinds.parameter import ListKind
 from ..model.machine import AxisType
+from ..model.quantity import shown
 from ..model.volumetric import (
     AXIS_NUMBERS,
     CENTERS,
@@ -23,12 +24,15 @@ from ..model.volumetric import (
     NO_VECTOR,
     NOMINAL_DIRECTIONS,
     OFFSETS,
+    ROTARY,
     TOOL_ORIENTATION,
     TOOL_POSITION,
     UNIT_TOLERANCE,
     ErrorTable,
     Triple,
     Volumetric,
+    is_angle,
+    jump_of,
 )
 from .axes import Axes, AxisSettings
 from .catalogue_volumetric import ETALON_EXCHANGE
@@ -43,6 +47,8 @@ from .volumetric_parameters import Parameters, assemble
 
 LIMIT_MAX = 429_496.7295
 """Largest s_limit that an axis list can hold, mm."""
+_JUMP = 1e-9
+"""mm or rad; below that a table is continuous."""
 
 _FILE_NAME, _MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
 
@@ -120,6 +126,7 @@ class VolumetricReader:
         )
         self._check_directions(chain, directions, parameters)
         errors = tuple(self._acting_errors(chain, parameters))
+        self._check_turns(errors, assigned, parameters)
         if values.flag("use_axis_offsets"):
             self._note("AXC-NOT-MODELLED", "use_axis_offsets", "Offsets of the axes are not modelled; they are 0.")
         return Volumetric(
@@ -227,6 +234,7 @@ class VolumetricReader:
 
     def check_limits(self, assigned: dict[str, int]) -> None:
         """Look for the limits that switching on will ask for."""
+        free = []
         for letter in LINEAR:
             for axis in self.axes.all():
                 leader = axis.number if axis.number in assigned.values() else axis.gantry_master
@@ -241,9 +249,12 @@ class VolumetricReader:
                         f"volumetric compensation {self.index} cannot be switched on."
                     )
                     self._note("AXC-LIMIT", letter.lower(), message)
-                if axis.v_limit:
-                    message = f"lr_param.vol_comp.v_limit of axis {axis.number} is not modelled; it limits nothing."
-                    self._note("AXC-NOT-MODELLED", letter.lower(), message)
+                elif not axis.v_limit and not self.axes.invent:
+                    free.append(axis.number)
+        if free:
+            numbers = ", ".join(map(str, sorted(free)))
+            message = f"No lr_param.vol_comp.v_limit for axis {numbers}: nothing but filter_steps slows a switch down."
+            self._note("AXC-V-LIMIT", "filter_steps", message)
 
     def _direction(self, names: tuple[str, ...], parameters: Parameters) -> Triple | None:
         """Return a vector of length 1; None where it is not given or 0."""
@@ -287,6 +298,24 @@ class VolumetricReader:
                 file, line = parameters.places[name]
                 message = f"{name} is not used: {name[-1]} is not in the chain {chain}."
                 self.findings.add("AXC-UNUSED", file, line, name, message, group=f"errors of {name[-1]}")
+
+    def _check_turns(self, errors: tuple[ErrorTable, ...], assigned: dict[str, int], parameters: Parameters) -> None:
+        """Find tables that jump while a rotary axis goes on turning, and splicing that changes nothing."""
+        if self.values.flag("enable_splicing") and not parameters.spliced:
+            message = "enable_splicing has no effect: no table over one rotary axis lacks a record one turn later."
+            self._note("AXC-SPLICING", "enable_splicing", message)
+        jumps: dict[tuple[tuple[str, int], str, float], list[str]] = {}
+        for table in errors:
+            for letter in set(table.arguments).intersection(assigned, ROTARY):
+                modulo = self.axes.get(assigned[letter]).modulo
+                at, jump = jump_of(table, letter, None if modulo is None else modulo.length)
+                if abs(jump) > _JUMP:
+                    factor, unit = shown("rad" if is_angle(table.name) else "mm")
+                    size = f"{table.name} by {factor * abs(jump):.3g} {unit}"
+                    jumps.setdefault((parameters.places[table.name], letter, at), []).append(size)
+        for ((file, line), letter, at), sizes in jumps.items():
+            message = f"The records over {letter} do not close: at {at:g}° the correction jumps, {', '.join(sizes)}."
+            self.findings.add("AXC-OPEN", file, line, letter, message)
 
     def _letters(self, name: str) -> str:
         """Return the linear axes that an entry names, in the order X, Y, Z."""

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..model.volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Interpolation, is_grid
+from ..model.volumetric import ERRORS, FULL_TURN, LETTERS, LINEAR, ROTARY, ErrorTable, Interpolation, is_grid
 from .catalogue_volumetric import AUTO
 from .findings import Findings
 from .volumetric_blocks import ParameterBlock
-
-FULL_TURN = 360.0
 
 _POLYLINE = {Interpolation.PATH.value: LINEAR, Interpolation.PATH_XY.value: LINEAR[:2]}
 
@@ -38,11 +36,14 @@ class Parameters:
         By name, one for each describing parameter that is given.
     places : dict of str to (str, int)
         File and line where each error is named.
+    spliced : bool
+        Whether a table was made round.
     """
 
     errors: dict[str, ErrorTable] = field(default_factory=dict)
     description: dict[str, Constant] = field(default_factory=dict)
     places: dict[str, tuple[str, int]] = field(default_factory=dict)
+    spliced: bool = False
 
     def records(self) -> int:
         """Return the number of records: one for each parameter and argument tuple."""
@@ -90,7 +91,7 @@ def assemble(
     for name, columns in errors.items():
         if id(columns) not in modes:
             if enable_splicing:
-                _splice(columns)
+                result.spliced = _splice(columns) or result.spliced
             modes[id(columns)] = _mode(columns, interpolation, findings)
         mode = modes[id(columns)]
         result.errors[name] = ErrorTable(name, columns.values[name], columns.arguments, columns.nodes, mode)
@@ -149,12 +150,13 @@ def _merge(name: str, first: _Columns, second: _Columns, interpolation: str, fin
     return _Columns(second.source, first.arguments, nodes, {name: tuple(records[node] for node in nodes)})
 
 
-def _splice(columns: _Columns) -> None:
-    """Repeat the record at 0° at 360° in a table over one rotary axis."""
-    rotary = columns.arguments in tuple(ROTARY)
-    if rotary and columns.nodes[0] == (0.0,) and columns.nodes[-1][0] < FULL_TURN:
-        columns.nodes = (*columns.nodes, (FULL_TURN,))
-        columns.values = {name: (*values, values[0]) for name, values in columns.values.items()}
+def _splice(columns: _Columns) -> bool:
+    """Repeat the first record one turn later in a table over one rotary axis; False: it is none, or is round."""
+    if columns.arguments not in tuple(ROTARY) or columns.nodes[-1][0] - columns.nodes[0][0] >= FULL_TURN:
+        return False
+    columns.nodes = (*columns.nodes, (columns.nodes[0][0] + FULL_TURN,))
+    columns.values = {name: (*values, values[0]) for name, values in columns.values.items()}
+    return True
 
 
 def _mode(columns: _Columns, interpolation: str, findings: Findings) -> Interpolation:

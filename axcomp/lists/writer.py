@@ -100,6 +100,8 @@ def format_axis_list(axis: Axis) -> str:
     lines.add("lr_param.n_backlash_cyc", axis.backlash_cycles)
     if axis.volumetric_limit is not None:
         lines.add_converted("lr_param.vol_comp.s_limit", axis.volumetric_limit)
+    if axis.volumetric_velocity is not None:
+        lines.add_converted("lr_param.vol_comp.v_limit", axis.volumetric_velocity)
     if axis.gantry_master is not None:
         lines.add("kenngr.gantry_ax_nr", axis.gantry_master)
     return lines.text()

@@ -111,6 +111,8 @@ class Axis:
         Cycles over which leadscrew and backlash compensation change direction, 0..20 (P-AXIS-00243).
     volumetric_limit : float or None
         Largest volumetric correction, mm; None: not defined, which keeps the compensation off (P-AXIS-00525).
+    volumetric_velocity : float or None
+        Largest velocity at which volumetric corrections are switched, mm/s; None: any (P-AXIS-00526).
     gantry_master : int or None
         Logical number of the axis whose volumetric corrections it gets too; None: it is no gantry slave (P-AXIS-00070).
     compensations : tuple of Compensation
@@ -126,6 +128,7 @@ class Axis:
     modulo: ModuloRange | None
     backlash_cycles: int
     volumetric_limit: float | None
+    volumetric_velocity: float | None
     gantry_master: int | None
     compensations: tuple[Compensation, ...]
     reserved: tuple[tuple[str, int], ...]
@@ -138,6 +141,7 @@ class Axis:
         modulo: ModuloRange | None = None,
         backlash_cycles: int = 0,
         volumetric_limit: float | None = None,
+        volumetric_velocity: float | None = None,
         gantry_master: int | None = None,
         compensations: tuple[Compensation, ...] = (),
         reserved: Mapping[str, int] | tuple[tuple[str, int], ...] = (),
@@ -155,6 +159,7 @@ class Axis:
             "modulo": modulo,
             "backlash_cycles": backlash_cycles,
             "volumetric_limit": volumetric_limit,
+            "volumetric_velocity": volumetric_velocity,
             "gantry_master": gantry_master,
             "compensations": tuple(sorted(found, key=lambda one: one.order)),
             "reserved": tuple(sorted(dict(reserved).items())),

@@ -10,6 +10,7 @@ import enum
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 LINEAR = "XYZ"
 ROTARY = "ABC"
@@ -52,6 +53,8 @@ OFFSET_MAX = 6.2832
 """Largest offset of a rotary axis, rad."""
 LENGTH_MAX = 1e6
 """Largest length, mm."""
+FULL_TURN = 360.0
+"""Degrees after which a rotary axis stands where it stood."""
 
 Triple = tuple[float, float, float]
 NO_VECTOR: Triple = (0.0, 0.0, 0.0)
@@ -215,3 +218,39 @@ def is_grid(nodes: Sequence[tuple[float, ...]]) -> bool:
     if not nodes:
         return False
     return math.prod(len(set(coordinates)) for coordinates in zip(*nodes, strict=True)) == len(nodes)
+
+
+def turn_of(first: float, last: float, modulo: float | None) -> tuple[float, float] | None:
+    """Return start and length of the turn into which positions of a rotary axis are folded, °; None: they are not.
+
+    A table over a full turn begins it, wherever that is; any other one, on a modulo axis, is in its middle.
+    ``modulo`` is the range of the axis.
+    """
+    if last - first >= FULL_TURN:
+        return first, FULL_TURN
+    return None if modulo is None else (0.5 * (first + last - modulo), modulo)
+
+
+def jump_of(table: ErrorTable, argument: str, modulo: float | None) -> tuple[float, float]:
+    """Return where a table on a grid jumps when a rotary axis goes on turning, °, and its largest jump, mm or rad.
+
+    No jump: (0, 0). ``modulo`` is the range of the axis, None if it does not count modulo.
+    """
+    d = table.arguments.index(argument)
+    rows: dict[tuple[float, ...], list[tuple[float, float]]] = {}
+    for node, value in sorted(zip(table.nodes, table.values, strict=True)):
+        rows.setdefault(node[:d] + node[d + 1 :], []).append((node[d], value))
+    first, last = table.nodes[0][d], max(node[d] for node in table.nodes)
+    turn = turn_of(first, last, modulo)
+    if turn is None or table.interpolation is not Interpolation.GRID:
+        return 0.0, 0.0
+    start, length = turn
+    return start, max((row[0][1] - _value(row, start + length) for row in rows.values()), key=abs)
+
+
+def _value(row: Sequence[tuple[float, float]], x: float) -> float:
+    """Return the value of a curve at x, its end value held."""
+    for (a, low), (b, high) in pairwise(row):
+        if x < b:
+            return low + (high - low) * (x - a) / (b - a)
+    return row[-1][1]

@@ -64,8 +64,9 @@ def table_errors(
     for target in targets:
         # The table carries the instrument: it sees the reflectors go the opposite way.
         turn, shift = _mapping(_readings(plant, {**at, letter: target}), zero)
-        moved = turn.apply(center) + shift - center
         turned = turn * Rotation.from_rotvec(np.radians(target) * direction).inv()
+        # Errors stand in the machine's coordinates: the table turns about its centre, then all of it is displaced.
+        moved = turn.apply(center) + shift - turned.apply(center)
         rows.append([*moved, *turned.as_euler("xyz")])
     errors = np.array(rows)
     apart = np.unique(np.mod(targets, 360.0), return_index=True)[1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from ..kernel.record import Vec
 from ..kernel.records import Tables
@@ -20,6 +21,7 @@ from ..model.machine import Machine
 from ..model.volumetric import (
     COMPENSATIONS_MAX,
     ERRORS,
+    FULL_TURN,
     LENGTH_MAX,
     LETTERS,
     LINEAR,
@@ -28,11 +30,13 @@ from ..model.volumetric import (
     ErrorTable,
     Interpolation,
     Volumetric,
+    is_angle,
     is_grid,
     largest,
+    turn_of,
 )
 
-FULL_TURN = 360.0
+CYCLES_MAX = 2**31 - 1  # of a switch; at 1 ms more than three weeks
 SHORTEST = 1e-9  # mm or °; along less than this, searching is left to the bisection
 
 _INTERPOLATIONS = {
@@ -58,7 +62,7 @@ def compile_volumetric(machine: Machine, tables: Tables, pool: Vec) -> None:
         )
     tables.volumetrics = max(indices, default=-1) + 1
     for volumetric in machine.volumetric:
-        _Compiler(machine, volumetric, tables.volumetric[volumetric.index], pool).compile()
+        _Compiler(machine, volumetric, tables.volumetric[volumetric.index], pool, tables.cycle_time).compile()
 
 
 def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
@@ -72,14 +76,29 @@ def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
     return before
 
 
+def _steepest(error: ErrorTable, d: int) -> float:
+    """Return the largest change of an error per mm along argument d; what is no grid can change as it likes."""
+    if error.interpolation is not Interpolation.GRID:
+        return 1.0
+    # Nodes that differ in this argument only are neighbours when it is sorted last.
+    rows = sorted(
+        (*node[:d], *node[d + 1 :], node[d], value) for node, value in zip(error.nodes, error.values, strict=True)
+    )
+    pairs = ((a, b) for a, b in pairwise(rows) if a[:-2] == b[:-2])
+    return max((abs((b[-1] - a[-1]) / (b[-2] - a[-2])) for a, b in pairs), default=0.0)
+
+
 class _Compiler:
     """Fills the tables of one compensation."""
 
-    def __init__(self, machine: Machine, volumetric: Volumetric, table: VolumetricTable, pool: Vec) -> None:
+    def __init__(
+        self, machine: Machine, volumetric: Volumetric, table: VolumetricTable, pool: Vec, cycle_time: float
+    ) -> None:
         self.machine = machine
         self.volumetric = volumetric
         self.table = table
         self.pool = pool
+        self.cycle_time = cycle_time
 
     def compile(self) -> None:
         volumetric, table = self.volumetric, self.table
@@ -87,7 +106,7 @@ class _Compiler:
         table.configured = True
         table.manual = volumetric.manual_activation
         table.associated = volumetric.associate_to_channel
-        table.cycles = max(1, volumetric.filter_steps)
+        table.cycles = min(max(1, volumetric.filter_steps), CYCLES_MAX)
         self._axes()
         self._model(table)
         for d, letter in enumerate(LINEAR):
@@ -123,6 +142,11 @@ class _Compiler:
             table.member_letter[m] = LETTERS.index(letter)
             table.member_limit[m] = self.machine.axes[place].volumetric_limit or 0.0
             table.members = m + 1
+            velocity = self.machine.axes[place].volumetric_velocity
+            if velocity is not None and letter in LINEAR:
+                self._require(velocity > 0.0, "v_limit is above 0")
+                allowed, d = velocity * self.cycle_time, LINEAR.index(letter)
+                table.velocity[d] = min(allowed, table.velocity[d] or allowed)
 
     def _model(self, table: VolumetricTable) -> None:
         volumetric = self.volumetric
@@ -159,6 +183,7 @@ class _Compiler:
         table.constant = self._append([float(number) for number, _ in constants])
         self._append([value for _, value in constants])
         table.blocks = len(blocks)
+        self._steepness()
         for block, errors in zip(table.block, blocks.values(), strict=False):
             self._block(block, errors)
 
@@ -214,15 +239,30 @@ class _Compiler:
             block.knots[0] = self._append([x for node in nodes for x in node])
         block.values = self._append([error.values[n] for n in order for error in errors])
 
+    def _steepness(self) -> None:
+        """Bound how fast the errors change with X, Y and Z: it says when they need no further evaluation."""
+        table = self.table
+        for error in self.volumetric.errors:
+            if error.name[-1] not in self.volumetric.chain or not any(error.values):
+                continue
+            steepest = sum(_steepest(error, d) for d, letter in enumerate(error.arguments) if letter in LINEAR)
+            if is_angle(error.name):
+                table.angular_steepness += steepest
+            else:
+                table.steepness += steepest
+        table.reach = sum(map(abs, (*table.tool_position, *table.center)))
+
     def _fold(self, block: ErrorBlock, d: int, letter: str, first: float, last: float) -> None:
-        """Say into which turn the position of a rotary axis is folded: where the table begins, or centred on it."""
+        """Say into which turn the position of a rotary axis is folded; among scattered records all ways go round."""
         if letter not in ROTARY:
             return
         modulo = self.machine.axes[self.table.axis[LETTERS.index(letter)]].modulo
-        if last - first >= FULL_TURN:
-            block.start[d], block.period[d] = first, FULL_TURN
-        elif modulo is not None:
-            block.start[d], block.period[d] = 0.5 * (first + last - modulo.length), modulo.length
+        length = None if modulo is None else modulo.length
+        turn = turn_of(first, last, length)
+        if block.interpolation == INTERPOLATE_SCATTER and turn is None:
+            turn = (first, FULL_TURN)
+        if turn is not None:
+            block.start[d], block.period[d] = turn
 
     def _append(self, values: Sequence[float]) -> int:
         return append(self.pool, values, self._name())

@@ -18,6 +18,7 @@ static inline double double_min(double a, double b) { return b < a ? b : a; }
 static inline double double_max(double a, double b) { return b > a ? b : a; }
 static inline int32_t int_min(int32_t a, int32_t b) { return b < a ? b : a; }
 static inline int32_t int_max(int32_t a, int32_t b) { return b > a ? b : a; }
+static inline int32_t int_abs(int32_t a) { return a < 0 ? -a : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
@@ -1389,7 +1390,8 @@ static void activate_if_stirred(const AxisTable *table, AxisState *axis, const I
  * The errors of a machine at a position: interpolation over any number of axes (manual 003, 6.4).
  *
  * On a grid: multilinear, the edge held outside. Scattered: Shepard's weights 1/distance², exact at the nodes. On a path:
- * at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held.
+ * at the foot of the perpendicular on the nearest section of a polyline, linear along it, the ends held; where the path
+ * crosses itself the section that is followed counts.
  */
 
 /* Return i with knot[i] ≤ x < knot[i + 1] along argument d; the last knot belongs to the last cell.
@@ -1502,46 +1504,82 @@ static void add_from_scatter(const double *pool, const ErrorBlock *block, const 
     }
 }
 
-/* Add the values at the point of the polyline that is nearest; of two as near the first one. */
-static void add_from_path(const double *pool, const ErrorBlock *block, const double x[LETTERS], double errors[ERRORS])
+/* Return where the point of a section that is nearest lies along it, 0 … 1. */
+static double share_along(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS])
 {
-    int32_t nearest = 0;
+    int32_t start = block->knots[0] + n * block->arguments;
+    double along = 0.0;
+    double square = 0.0;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        double direction = pool[start + block->arguments + d] - pool[start + d];
+        along += (x[d] - pool[start + d]) * direction;
+        square += direction * direction;
+    }
+    if (square > 0.0) {
+        return double_min(double_max(along / square, 0.0), 1.0);
+    }
+    return 0.0;
+}
+
+/* Return the squared distance from the point at share s of a section. */
+static double square_from_section(const double *pool, const ErrorBlock *block, int32_t n, double s,
+        const double x[LETTERS])
+{
+    int32_t start = block->knots[0] + n * block->arguments;
+    double distance = 0.0;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        double foot = pool[start + d] + s * (pool[start + block->arguments + d] - pool[start + d]);
+        distance += (x[d] - foot) * (x[d] - foot);
+    }
+    return distance;
+}
+
+/* Add the values at the nearest point of the polyline, and return its section, counted from 1.
+ *
+ * Of sections as near the first one counts; one that is followed, and its neighbours, until another is much nearer.
+ */
+static int32_t add_from_path(const double *pool, const ErrorBlock *block, const double x[LETTERS], int32_t followed,
+        double errors[ERRORS])
+{
+    int32_t section = 0;
     double share = 0.0;
     double shortest = -1.0;
+    int32_t own = 0;
+    double own_share = 0.0;
+    double own_shortest = -1.0;
     for (int32_t n = 0; n < block->nodes - 1; n++) {
-        int32_t start = block->knots[0] + n * block->arguments;
-        double along = 0.0;
-        double square = 0.0;
-        for (int32_t d = 0; d < block->arguments; d++) {
-            double direction = pool[start + block->arguments + d] - pool[start + d];
-            along += (x[d] - pool[start + d]) * direction;
-            square += direction * direction;
-        }
-        double s = 0.0;
-        if (square > 0.0) {
-            s = double_min(double_max(along / square, 0.0), 1.0);
-        }
-        double distance = 0.0;
-        for (int32_t d = 0; d < block->arguments; d++) {
-            double foot = pool[start + d] + s * (pool[start + block->arguments + d] - pool[start + d]);
-            distance += (x[d] - foot) * (x[d] - foot);
-        }
+        double s = share_along(pool, block, n, x);
+        double distance = square_from_section(pool, block, n, s, x);
         if (shortest < 0.0 || distance < shortest) {
             shortest = distance;
-            nearest = n;
+            section = n;
             share = s;
         }
+        if (followed > 0 && int_abs(n + 1 - followed) <= 1 && (own_shortest < 0.0 || distance < own_shortest)) {
+            own_shortest = distance;
+            own = n;
+            own_share = s;
+        }
     }
-    int32_t at = block->values + nearest * block->errors;
+    bool at_end = (own == 0 && own_share == 0.0) || (own == block->nodes - 2 && own_share == 1.0);
+    if (own_shortest >= 0.0 && !at_end && (own_shortest < BESIDE || own_shortest < 4.0 * shortest)) {
+        section = own;
+        share = own_share;
+    }
+    int32_t at = block->values + section * block->errors;
     add_node(pool, block, at, 1.0 - share, errors);
     if (share > 0.0) {
         add_node(pool, block, at + block->errors, share, errors);
     }
+    return section + 1;
 }
 
-/* Put the errors at a position (mm, °) into `errors`, which is 0 before. */
+/* Put the errors at a position (mm, °) into `errors`, which is 0 before.
+ *
+ * `section`: for each block the section of its path that is followed, counted from 1; 0: not known yet.
+ */
 static void errors_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
-        double errors[ERRORS])
+        int32_t section[ERRORS], double errors[ERRORS])
 {
     for (int32_t k = 0; k < table->constants; k++) {
         errors[(int32_t)pool[table->constant + k]] = pool[table->constant + table->constants + k];
@@ -1562,7 +1600,7 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
         } else if (block->interpolation == INTERPOLATE_SCATTER) {
             add_from_scatter(pool, block, x, errors);
         } else {
-            add_from_path(pool, block, x, errors);
+            section[b] = add_from_path(pool, block, x, section[b], errors);
         }
     }
 }
@@ -1574,13 +1612,15 @@ static void errors_at(const double *pool, const VolumetricTable *table, const do
  * With R(a, b, c) = Rz(c)·Ry(b)·Rx(a), e the direction of an axis, P its centre, q its position and t = (X0 + EX, …):
  *
  * linear                A = Trans(R(A0, B0, C0)·e·q) · Trans(t) · R(EA, EB, EC)
- * rotary, default       A = Trans(P) · Trans(t) · R(A0 + EA, …) · Rot(e, q) · Trans(−P)
- * rotary, alternative   A = Trans(P) · Trans(EX, …) · R(EA, …) · L·Rot(e, q)·L⁻¹ · Trans(−P), L = Trans(X0, …)·R(A0, …)
+ * rotary, default       A = Trans(t) · R(A0 + EA, …) · Trans(P) · Rot(e, q) · Trans(−P)
+ * rotary, alternative   A = Trans(EX, …) · R(EA, …) · L · Trans(P) · Rot(e, q) · Trans(−P) · L⁻¹,
+ *                       L = Trans(X0, …)·R(A0, …)
  *
  * W(q) = A₁⁻¹ … A_k⁻¹ · A_{k+1} … A_n · (P0 + tool length · N0), k = workpiece axes. Every A is x ↦ M·x + o, M a rotation.
  *
- * All errors are those at q, so W is linear in the corrections of X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four
- * columns carries W and J from the tool to the workpiece. Matrices are row by row.
+ * The errors are those where the machine stands, at q + Δ. With errors that are given, W is linear in the corrections of
+ * X, Y and Z: W(q + Δ) = W(q) + J·Δ. A frame of four columns carries W and J from the tool to the workpiece. Matrices are
+ * row by row.
  */
 
 /* Map the first columns of a frame by x ↦ M·x + o; if `side` is negative by x ↦ M·(x − o). */
@@ -1674,20 +1714,6 @@ static void linear_axis(int32_t letter, double q, const double errors[ERRORS], d
     rotation(errors[e + EA], errors[e + EB], errors[e + EC], m);
 }
 
-/* Let a map about the origin act about the centre of A, B or C. */
-static void about_center(const VolumetricTable *table, int32_t letter, const double m[9], double o[3])
-{
-    double center[3] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        center[d] = table->center[3 * (letter - LINEAR) + d];
-        o[d] += center[d];
-    }
-    turn(m, center);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        o[d] -= center[d];
-    }
-}
-
 /* Put the rotation by `q` in ° about the unit vector `e` into `m`. */
 static void rotation_about(const double e[3], double q, double m[9])
 {
@@ -1708,16 +1734,29 @@ static void rotation_about(const double e[3], double q, double m[9])
     m[7] += s * e[0];
 }
 
+/* Put the turn by `q` in ° about an axis through a point into `m` and `o`; the point is lost. */
+static void turn_about(const double axis[3], double center[3], double q, double m[9], double o[3])
+{
+    rotation_about(axis, q, m);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] = center[d];
+    }
+    turn(m, center);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] -= center[d];
+    }
+}
+
 /* Put the map of A, B or C without errors into `m` and `o`; `q` in °. */
 static void nominal_rotary_axis(const VolumetricTable *table, int32_t letter, double q, double m[9], double o[3])
 {
     double axis[3] = {0};
+    double center[3] = {0};
     for (int32_t d = 0; d < LINEAR; d++) {
         axis[d] = table->direction[3 * letter + d];
-        o[d] = 0.0;
+        center[d] = table->center[3 * (letter - LINEAR) + d];
     }
-    rotation_about(axis, q, m);
-    about_center(table, letter, m, o);
+    turn_about(axis, center, q, m, o);
 }
 
 /* Replace `m` by a·m. */
@@ -1739,37 +1778,34 @@ static void rotary_axis(const VolumetricTable *table, int32_t letter, double q, 
 {
     int32_t e = ERRORS_OF_AXIS * letter;
     double axis[3] = {0};
+    double center[3] = {0};
+    double tilt[9] = {0};
     for (int32_t d = 0; d < LINEAR; d++) {
         axis[d] = table->direction[3 * letter + d];
+        center[d] = table->center[3 * (letter - LINEAR) + d];
     }
-    double tilt[9] = {0};
     if (table->alternative) {
-        /* L·Rot(e, q)·L⁻¹ turns about R(A0, …)·e through (X0, …). */
+        /* L · Trans(P) · Rot(e, q) · Trans(−P) · L⁻¹ turns about R(A0, …)·e through L·P. */
         rotation(errors[e + A0], errors[e + B0], errors[e + C0], tilt);
         turn(tilt, axis);
-        rotation_about(axis, q, m);
+        turn(tilt, center);
         for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = -errors[e + X0 + d];
-        }
-        turn(m, o);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + X0 + d];
+            center[d] += errors[e + X0 + d];
         }
         rotation(errors[e + EA], errors[e + EB], errors[e + EC], tilt);
-        turn(tilt, o);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] += errors[e + EX + d];
-        }
     } else {
-        rotation_about(axis, q, m);
         rotation(errors[e + A0] + errors[e + EA], errors[e + B0] + errors[e + EB], errors[e + C0] + errors[e + EC],
                 tilt);
-        for (int32_t d = 0; d < LINEAR; d++) {
-            o[d] = errors[e + X0 + d] + errors[e + EX + d];
+    }
+    turn_about(axis, center, q, m, o);
+    multiply_from_left(tilt, m);
+    turn(tilt, o);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        o[d] += errors[e + EX + d];
+        if (!table->alternative) {
+            o[d] += errors[e + X0 + d];
         }
     }
-    multiply_from_left(tilt, m);
-    about_center(table, letter, m, o);
 }
 
 /* Replace a rotation by its inverse. */
@@ -1866,12 +1902,12 @@ static void invert(const double frame[FRAME], double inverse[9])
     }
 }
 
-/* Put Δ with W(q + Δ) = nominal W(q) into `correction`; false: X, Y and Z are dependent here.
+/* Put Δ into `correction` for errors that are given; false: X, Y and Z are dependent here.
  *
  * Newton's method, whose first step is all but exact because W is linear in Δ; the nominal machine decides whether the
  * position is singular.
  */
-static bool correction_at(const VolumetricTable *table, const double position[LETTERS], double tool_length,
+static bool correction_with(const VolumetricTable *table, const double position[LETTERS], double tool_length,
         const double errors[ERRORS], double correction[LINEAR])
 {
     double nominal[FRAME] = {0};
@@ -1905,27 +1941,67 @@ static bool correction_at(const VolumetricTable *table, const double position[LE
     return false;
 }
 
+/* Put Δ at a position into `correction`, with the errors at another place. */
+static bool correction_at_place(const double *pool, const VolumetricTable *table, const double position[LETTERS],
+        const double place[LETTERS], double tool_length, int32_t section[ERRORS], double correction[LINEAR])
+{
+    double errors[ERRORS] = {0};
+    errors_at(pool, table, place, section, errors);
+    return correction_with(table, position, tool_length, errors, correction);
+}
+
+/* Put Δ with W(q + Δ) = nominal W(q) into `correction`, which is 0 before; false: X, Y and Z are dependent here.
+ *
+ * The errors are evaluated at q, and where these take the axes again until nothing changes any more. How much they can
+ * change is known from the steepness of the tables: most machines need two evaluations.
+ * `section`: see `errors_at`.
+ */
+static bool correction_at(const double *pool, const VolumetricTable *table, const double position[LETTERS],
+        double tool_length, int32_t section[ERRORS], double correction[LINEAR])
+{
+    double place[LETTERS] = {0};
+    double arm = fabs(tool_length) + table->reach;
+    for (int32_t letter = 0; letter < LETTERS; letter++) {
+        place[letter] = position[letter];
+        if (letter < LINEAR) {
+            arm += fabs(position[letter]);
+        }
+    }
+    double found[LINEAR] = {0};
+    for (int32_t i = 0; i < EVALUATIONS; i++) {
+        if (!correction_at_place(pool, table, position, place, tool_length, section, found)) {
+            return false;
+        }
+        double change = 0.0;
+        for (int32_t d = 0; d < LINEAR; d++) {
+            change += fabs(found[d] - correction[d]);
+            correction[d] = found[d];
+            place[d] = position[d] + found[d];
+        }
+        if (change * (table->steepness + table->angular_steepness * arm) < SETTLED) {
+            return true;
+        }
+    }
+    return true;
+}
+
 /* =========================== volumetric_switching ===========================
  *
  * Switching the volumetric compensations: what is on, with which weight, and what is absorbed without motion.
  *
- * A switch takes `filter_steps` cycles along 10u³ − 15u⁴ + 6u⁵; a change of mind midway turns round where it is. Where
- * an axis must not move, what its correction loses or gains becomes a shift that stays until the next switch (semantics
- * §10).
+ * A switch takes `filter_steps` cycles along 10u³ − 15u⁴ + 6u⁵, more where it would be faster than `v_limit`; a change
+ * of mind midway turns round where it is. Where an axis must not move, what its correction loses or gains becomes a shift.
+ * It is released along the same filter with the axis' next motion, or with the next switch that may move (semantics §10).
  */
 
-/* Return 10u³ − 15u⁴ + 6u⁵, u = step/cycles, 0 ≤ step ≤ cycles: velocity and acceleration are 0 at both ends. */
-static double smooth(int32_t step, int32_t cycles)
+/* Return 10u³ − 15u⁴ + 6u⁵, 0 ≤ u ≤ 1: velocity and acceleration are 0 at both ends. */
+static double smooth(double u)
 {
-    if (step >= cycles) {
-        return 1.0;
-    }
-    double u = (double)step / cycles;
     return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
-/* Return sign · CFACT of X, Y or Z, the factor held within 0 … 1; what is no number counts as 0. */
-static double signed_factor(const VolumetricTable *table, const VolumetricInputs *given, int32_t letter)
+/* Return CFACT of X, Y or Z, held within 0 … 1; what is no number counts as 0. */
+static double factor_of(const VolumetricInputs *given, int32_t letter)
 {
     double factor = given->factor_x;
     if (letter == 1) {
@@ -1934,19 +2010,26 @@ static double signed_factor(const VolumetricTable *table, const VolumetricInputs
         factor = given->factor_z;
     }
     if (factor >= 0.0) {
-        return table->sign[letter] * double_min(factor, 1.0);
+        return double_min(factor, 1.0);
     }
     return 0.0;
 }
 
 /* Keep a command until it can be obeyed, and what came with it. */
-static void take_command(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
-        bool command)
+static void take_command(VolumetricState *volumetric, const VolumetricInputs *given, bool command)
 {
     volumetric->command = command;
     volumetric->no_move = given->no_move;
     for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->wanted_factor[d] = signed_factor(table, given, d);
+        volumetric->wanted_factor[d] = factor_of(given, d);
+    }
+}
+
+/* Ask all axes that take part to stop, gantry masters and slaves included. */
+static void request_stops(const VolumetricTable *table, State *state)
+{
+    for (int32_t m = 0; m < table->members; m++) {
+        state->axis[table->member[m]].stop_request = true;
     }
 }
 
@@ -1956,46 +2039,65 @@ static void drop_axis(VolumetricState *volumetric, int32_t letter)
     if (volumetric->taking_part[letter]) {
         volumetric->taking_part[letter] = false;
         volumetric->absorbed[letter] = true;
+        volumetric->waiting[letter] = true;
     }
 }
 
-/* Take out the axes that are in error or have lost their reference; true: there are none. */
-static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs)
+/* Take out the axes that are in error or have lost their reference; true: there are none.
+ *
+ * An error while the compensation is on stops all the others.
+ */
+static bool drop_members(const VolumetricTable *table, VolumetricState *volumetric, const Inputs *inputs, State *state)
 {
     bool ready = true;
+    bool failed = false;
     for (int32_t m = 0; m < table->members; m++) {
         const AxisInputs *given = &inputs->axis[table->member[m]];
         if (given->fault || !given->referenced) {
             ready = false;
-            if (given->fault && volumetric->on) {
-                volumetric->command = false;
-            }
+            failed = failed || (given->fault && volumetric->on);
             if (table->member_letter[m] < LINEAR) {
                 drop_axis(volumetric, table->member_letter[m]);
+            }
+        }
+    }
+    if (failed) {
+        volumetric->command = false;
+        request_stops(table, state);
+        for (int32_t m = 0; m < table->members; m++) {
+            if (inputs->axis[table->member[m]].fault) {
+                state->axis[table->member[m]].stop_request = false;
             }
         }
     }
     return ready;
 }
 
-/* Switch off at once; the corrections become shifts. */
-static void stop_without_motion(VolumetricState *volumetric)
+/* Switch off at once; the corrections become shifts. `waiting`: these outlast a motion that is under way. */
+static void stop_without_motion(VolumetricState *volumetric, bool waiting)
 {
     volumetric->on = false;
-    volumetric->step = 0;
+    volumetric->progress = 0.0;
     volumetric->weight = 0.0;
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->absorbed[d] = true;
+        volumetric->waiting[d] = waiting;
     }
 }
 
+/* Begin to take back a shift. */
+static void take_shift_back(VolumetricState *volumetric, int32_t letter)
+{
+    volumetric->held_shift[letter] = volumetric->shift[letter];
+    volumetric->release[letter] = volumetric->shift[letter] != 0.0 ? 1.0 : 0.0;
+}
+
 /* Begin to take back the shifts of the axes that may move, along with this switch. */
-static void release_shifts(const VolumetricTable *table, VolumetricState *volumetric)
+static void release_shifts(VolumetricState *volumetric)
 {
     for (int32_t d = 0; d < LINEAR; d++) {
         if (!volumetric->absorbed[d]) {
-            volumetric->held_shift[d] = volumetric->shift[d];
-            volumetric->release_step[d] = table->cycles;
+            take_shift_back(volumetric, d);
         }
     }
 }
@@ -2021,45 +2123,30 @@ static void switch_on(const VolumetricTable *table, VolumetricState *volumetric,
         state->axis[table->member[m]].stop_request = false;
     }
     if (!volumetric->started) {
-        volumetric->step = table->cycles;
+        volumetric->progress = 1.0;
     } else if (volumetric->no_move) {
-        volumetric->step = table->cycles;
+        volumetric->progress = 1.0;
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->absorbed[d] = true;
+            volumetric->waiting[d] = false;
         }
     } else {
-        release_shifts(table, volumetric);
+        release_shifts(volumetric);
     }
 }
 
 /* Tell whether a compensation that is running down can go up again; else it has to be down before. */
 static bool can_turn_round(const VolumetricState *volumetric)
 {
+    if (volumetric->progress == 0.0) {
+        return true;
+    }
     for (int32_t d = 0; d < LINEAR; d++) {
         if (!volumetric->taking_part[d] || volumetric->factor[d] != volumetric->wanted_factor[d]) {
             return false;
         }
     }
     return true;
-}
-
-/* Advance weight and shifts by one cycle. */
-static void advance_weight(const VolumetricTable *table, VolumetricState *volumetric)
-{
-    if (volumetric->on) {
-        if (volumetric->step < table->cycles) {
-            volumetric->step += 1;
-        }
-    } else if (volumetric->step > 0) {
-        volumetric->step -= 1;
-    }
-    volumetric->weight = smooth(volumetric->step, table->cycles);
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (volumetric->release_step[d] > 0) {
-            volumetric->release_step[d] -= 1;
-            volumetric->shift[d] = volumetric->held_shift[d] * smooth(volumetric->release_step[d], table->cycles);
-        }
-    }
 }
 
 /* Report an error at X, Y and Z. */
@@ -2070,7 +2157,7 @@ static void set_error(const VolumetricTable *table, State *state, int32_t error)
     }
 }
 
-/* Follow commands and conditions and advance the weight by one cycle; what is on in the first has full weight. */
+/* Follow commands and conditions; what is on in the first cycle has full weight. */
 static void switch_volumetric(const VolumetricTable *table, VolumetricState *volumetric, const VolumetricInputs *given,
         const Inputs *inputs, State *state)
 {
@@ -2079,48 +2166,110 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
     }
     if (!volumetric->started || given->enable != volumetric->enable) {
         volumetric->enable = given->enable;
-        take_command(table, volumetric, given, given->enable);
+        take_command(volumetric, given, given->enable);
     }
-    bool ready = drop_members(table, volumetric, inputs);
+    bool ready = drop_members(table, volumetric, inputs, state);
     if (inputs->reset) {
         volumetric->command = false;
-        stop_without_motion(volumetric);
+        stop_without_motion(volumetric, true);
     } else if (inputs->program_end && table->associated && volumetric->on) {
         volumetric->command = false;
-        stop_without_motion(volumetric);
+        stop_without_motion(volumetric, true);
         set_error(table, state, ERROR_PROGRAM_END);
-    } else if (table->manual && volumetric->command && (inputs->program_end || !ready)) {
-        take_command(table, volumetric, given, false);
+    } else if (table->manual && volumetric->command && !ready) {
+        take_command(volumetric, given, false);
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
         if (ready && volumetric->no_move) {
-            stop_without_motion(volumetric);
+            stop_without_motion(volumetric, false);
         } else {
             volumetric->on = false;
-            release_shifts(table, volumetric);
+            release_shifts(volumetric);
         }
-    } else if (!volumetric->on && volumetric->command && ready
-            && (volumetric->step == 0 || can_turn_round(volumetric))) {
+    } else if (!volumetric->on && volumetric->command && ready && can_turn_round(volumetric)) {
         switch_on(table, volumetric, state);
     }
-    advance_weight(table, volumetric);
-    volumetric->started = true;
 }
 
-/* Switch off without motion for an update; a manual compensation needs a new command. */
+/* Switch off without motion for an update; a manual compensation needs a new command, an automatic one none. */
 static void adopt_volumetric(const VolumetricTable *before, const VolumetricTable *after, VolumetricState *volumetric)
 {
-    stop_without_motion(volumetric);
+    stop_without_motion(volumetric, true);
     if (after->manual) {
         volumetric->command = false;
+    } else if (before->manual) {
+        volumetric->command = true;
+        volumetric->no_move = false;
+        for (int32_t d = 0; d < LINEAR; d++) {
+            volumetric->wanted_factor[d] = 1.0;
+        }
+    }
+    for (int32_t b = 0; b < ERRORS; b++) {
+        volumetric->section[b] = 0;
     }
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->shift[d] += volumetric->contribution[d];
         volumetric->contribution[d] = 0.0;
-        volumetric->release_step[d] = 0;
+        volumetric->release[d] = 0.0;
+        volumetric->held_shift[d] = 0.0;
         if (before->axis[d] != after->axis[d]) {
             volumetric->shift[d] = 0.0;
+        }
+    }
+}
+
+/* Return how much of its way every filter goes in a cycle: together they are no faster than the axes may be. */
+static double share_of_cycle(const VolumetricTable *table, const VolumetricState *volumetric)
+{
+    double share = 1.0 / table->cycles;
+    for (int32_t d = 0; d < LINEAR; d++) {
+        double way = 0.0;
+        if ((0.0 < volumetric->progress && volumetric->progress < 1.0)
+                || volumetric->on != (volumetric->progress > 0.0)) {
+            way += fabs(volumetric->value[d]);
+        }
+        if (volumetric->tool_progress < 1.0) {
+            way += fabs(volumetric->tool_change[d]);
+        }
+        if (volumetric->release[d] > 0.0) {
+            way += fabs(volumetric->held_shift[d]);
+        }
+        if (table->velocity[d] > 0.0 && STEEPEST * way * share > table->velocity[d]) {
+            share = table->velocity[d] / (STEEPEST * way);
+        }
+    }
+    return share;
+}
+
+/* Return the progress of a filter after one more cycle. */
+static double advanced(double progress, double by)
+{
+    progress += by;
+    if (progress > 1.0 - ARRIVED) {
+        return 1.0;
+    }
+    return progress > ARRIVED ? progress : 0.0;
+}
+
+/* Let all filters go on by one cycle; a shift whose axis begins to move is released. */
+static void advance_filters(const VolumetricTable *table, VolumetricState *volumetric, const State *state)
+{
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!state->motion.axis[table->axis[d]].moving) {
+            volumetric->waiting[d] = false;
+        } else if (volumetric->shift[d] != 0.0 && volumetric->release[d] == 0.0 && !volumetric->waiting[d]) {
+            take_shift_back(volumetric, d);
+        }
+    }
+    double share = share_of_cycle(table, volumetric);
+    volumetric->progress = advanced(volumetric->progress, volumetric->on ? share : -share);
+    volumetric->weight = smooth(volumetric->progress);
+    volumetric->tool_progress = advanced(volumetric->tool_progress, share);
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (volumetric->release[d] > 0.0) {
+            volumetric->release[d] = advanced(volumetric->release[d], -share);
+            volumetric->shift[d] = volumetric->held_shift[d] * smooth(volumetric->release[d]);
         }
     }
 }
@@ -2129,79 +2278,129 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
  *
  * The volumetric compensations of one cycle, each from the raw setpoints of its axes (semantics §10).
  *
- * Every correction stays below the limits of its axis and of the gantry slaves that follow it. Where one does not, its
- * last value becomes a shift, the axis is asked to stop, and the compensation switches off.
+ * The sum of all corrections of an axis stays below its limit, as that of the gantry slaves that follow it. Where it does
+ * not, its last value becomes a shift, the axes are asked to stop, and every compensation of the axis switches off.
  */
 
-/* Drop the axes whose correction is too large, and let the others run down. */
-static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state)
+/* Tell whether a tool can be that long. */
+static bool is_tool_length(double length)
 {
-    double size[LETTERS] = {0};
-    for (int32_t d = 0; d < LINEAR; d++) {
-        if (volumetric->taking_part[d]) {
-            size[d] = fabs(volumetric->value[d]);
-        }
-    }
-    bool exceeded = false;
-    for (int32_t m = 0; m < table->members; m++) {
-        int32_t letter = table->member_letter[m];
-        if (letter < LINEAR && !(size[letter] <= table->member_limit[m])) {
-            exceeded = true;
-            drop_axis(volumetric, letter);
-            AxisState *axis = &state->axis[table->member[m]];
-            axis->error = ERROR_LIMIT_EXCEEDED;
-            axis->stop_request = true;
-        }
-    }
-    if (exceeded) {
-        volumetric->command = false;
-        volumetric->on = false;
-        release_shifts(table, volumetric);
-    }
+    return -LARGEST_TOOL <= length && length <= LARGEST_TOOL;
 }
 
-/* Compute the corrections at full weight; an error switches off. */
-static void compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state)
+/* Put the corrections at full weight into `value`; false: there are none here, and it stays. */
+static bool compute_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric,
+        const State *state, double tool_length, double value[LINEAR])
 {
     double position[LETTERS] = {0};
     for (int32_t letter = 0; letter < LETTERS; letter++) {
         position[letter] = state->motion.axis[table->axis[letter]].setpoint + table->offset[letter];
     }
-    double errors[ERRORS] = {0};
-    errors_at(pool, table, position, errors);
     double correction[LINEAR] = {0};
-    if (!correction_at(table, position, state->tool_length, errors, correction)) {
-        volumetric->command = false;
-        stop_without_motion(volumetric);
-        set_error(table, state, ERROR_SINGULAR);
-        return;
+    if (!correction_at(pool, table, position, tool_length, volumetric->section, correction)) {
+        return false;
     }
     for (int32_t d = 0; d < LINEAR; d++) {
-        volumetric->value[d] = volumetric->factor[d] * correction[d];
+        value[d] = table->sign[d] * volumetric->factor[d] * correction[d];
     }
-    check_limits(table, volumetric, state);
+    return true;
+}
+
+/* Compute the corrections at full weight and let all filters go on; an error switches off. */
+static void filter_values(const double *pool, const VolumetricTable *table, VolumetricState *volumetric, State *state)
+{
+    bool acts = volumetric->on || volumetric->progress > 0.0;
+    if (volumetric->progress == 0.0 || !volumetric->started) {
+        volumetric->tool_length = state->tool_length;
+        volumetric->new_tool_length = state->tool_length;
+        volumetric->tool_progress = 1.0;
+    }
+    bool usable = true;
+    if (acts) {
+        usable = compute_values(pool, table, volumetric, state, volumetric->tool_length, volumetric->value);
+        if (usable && state->tool_length != volumetric->new_tool_length) {
+            volumetric->old_tool_length = volumetric->tool_length;
+            volumetric->new_tool_length = state->tool_length;
+            volumetric->tool_progress = 0.0;
+            usable = compute_values(pool, table, volumetric, state, state->tool_length, volumetric->tool_change);
+            for (int32_t d = 0; d < LINEAR; d++) {
+                volumetric->tool_change[d] -= volumetric->value[d];
+            }
+        }
+    }
+    bool changes_tool = volumetric->tool_progress < 1.0;
+    advance_filters(table, volumetric, state);
+    if (usable && acts && changes_tool) {
+        double way = volumetric->new_tool_length - volumetric->old_tool_length;
+        volumetric->tool_length = volumetric->old_tool_length + smooth(volumetric->tool_progress) * way;
+        usable = compute_values(pool, table, volumetric, state, volumetric->tool_length, volumetric->value);
+    }
+    if (!usable) {
+        volumetric->command = false;
+        stop_without_motion(volumetric, true);
+        set_error(table, state, ERROR_SINGULAR);
+    }
+    volumetric->started = true;
+}
+
+/* Return the correction of X, Y or Z in this cycle. */
+static double correction_of(const VolumetricState *volumetric, int32_t letter)
+{
+    if (volumetric->taking_part[letter]) {
+        return volumetric->weight * volumetric->value[letter];
+    }
+    return 0.0;
+}
+
+/* Add the corrections of this cycle to their axes. */
+static void add_to_axes(const VolumetricTable *table, const VolumetricState *volumetric, State *state)
+{
+    for (int32_t m = 0; m < table->members; m++) {
+        int32_t letter = table->member_letter[m];
+        if (letter < LINEAR) {
+            state->axis[table->member[m]].volumetric_correction += correction_of(volumetric, letter);
+        }
+    }
+}
+
+/* Drop the axes whose corrections are too large together, stop all others, and let their corrections run down. */
+static void check_limits(const VolumetricTable *table, VolumetricState *volumetric, State *state)
+{
+    bool exceeded = false;
+    for (int32_t m = 0; m < table->members; m++) {
+        int32_t letter = table->member_letter[m];
+        AxisState *axis = &state->axis[table->member[m]];
+        if (letter < LINEAR && !(fabs(axis->volumetric_correction) <= table->member_limit[m])) {
+            exceeded = true;
+            drop_axis(volumetric, letter);
+            axis->error = ERROR_LIMIT_EXCEEDED;
+        }
+    }
+    if (exceeded) {
+        volumetric->command = false;
+        volumetric->on = false;
+        release_shifts(volumetric);
+        request_stops(table, state);
+    }
 }
 
 /* Add corrections and shifts to the axes; a change that must not move an axis goes into its shift. */
 static void contribute(const VolumetricTable *table, VolumetricState *volumetric, State *state)
 {
     for (int32_t d = 0; d < LINEAR; d++) {
-        double contribution = 0.0;
-        if (volumetric->taking_part[d]) {
-            contribution = volumetric->weight * volumetric->value[d];
-        }
+        double contribution = correction_of(volumetric, d);
         if (volumetric->absorbed[d]) {
             volumetric->shift[d] += volumetric->contribution[d] - contribution;
-            volumetric->release_step[d] = 0;
+            volumetric->release[d] = 0.0;
+            volumetric->held_shift[d] = 0.0;
         }
         volumetric->contribution[d] = contribution;
     }
+    add_to_axes(table, volumetric, state);
     for (int32_t m = 0; m < table->members; m++) {
         int32_t letter = table->member_letter[m];
         if (letter < LINEAR) {
-            AxisState *axis = &state->axis[table->member[m]];
-            axis->volumetric_correction += volumetric->contribution[letter];
-            axis->volumetric_shift += volumetric->shift[letter];
+            state->axis[table->member[m]].volumetric_shift += volumetric->shift[letter];
         }
     }
 }
@@ -2217,7 +2416,7 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
             state->axis[i].stop_request = false;
         }
     }
-    if (-LARGEST_TOOL < inputs->tool_length && inputs->tool_length < LARGEST_TOOL) {
+    if (is_tool_length(inputs->tool_length)) {
         state->tool_length = inputs->tool_length;
     }
     for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
@@ -2225,11 +2424,36 @@ static void compensate_volume(const Tables *tables, const double *pool, State *s
         if (table->configured) {
             VolumetricState *volumetric = &state->volumetric[k];
             switch_volumetric(table, volumetric, &inputs->volumetric[k], inputs, state);
-            if (volumetric->step > 0) {
-                compute_values(pool, table, volumetric, state);
+            filter_values(pool, table, volumetric, state);
+            add_to_axes(table, volumetric, state);
+        }
+    }
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+        if (state->volumetric[k].progress > 0.0) {
+            check_limits(&tables->volumetric[k], &state->volumetric[k], state);
+        }
+    }
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        state->axis[i].volumetric_correction = 0.0;
+    }
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+        if (tables->volumetric[k].configured) {
+            contribute(&tables->volumetric[k], &state->volumetric[k], state);
+            outputs->volumetric[k].active = state->volumetric[k].progress > 0.0;
+        }
+    }
+}
+
+/* Report a tool length that cannot be used at X, Y and Z of all compensations. */
+static void report_tool_length(const Tables *tables, const Inputs *inputs, Outputs *outputs)
+{
+    if (!is_tool_length(inputs->tool_length)) {
+        for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+            if (tables->volumetric[k].configured) {
+                for (int32_t d = 0; d < LINEAR; d++) {
+                    outputs->axis[tables->volumetric[k].axis[d]].error = ERROR_INPUT;
+                }
             }
-            contribute(table, volumetric, state);
-            outputs->volumetric[k].active = volumetric->step > 0;
         }
     }
 }
@@ -2360,6 +2584,9 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
             correct_axis(tables, pool, state, &inputs->axis[i], &outputs->axis[i], i);
             outputs->axis[i].error = axis->error;
         }
+    }
+    if (tables->volumetrics > 0) {
+        report_tool_length(tables, inputs, outputs);
     }
 }
 

@@ -382,6 +382,10 @@ typedef struct {
     int32_t chain[LETTERS];  /* letters from the workpiece to the tool */
     int32_t workpiece_axes;
     bool exact[LETTERS];  /* the axis has no errors */
+    double steepness;  /* bound of how much the lengths among the errors change with X, Y and Z, mm per mm */
+    double angular_steepness;  /* the same of the angles, rad per mm */
+    double reach;  /* lever of an angle besides X, Y, Z and the tool length, mm */
+    double velocity[LINEAR];  /* largest change by a filter in a cycle, mm; 0: not limited */
     int32_t column[LINEAR];  /* how many linear axes are between X, Y or Z and the tool */
     bool alternative;
     double tool_position[LINEAR];
@@ -395,24 +399,34 @@ typedef struct {
     ErrorBlock block[ERRORS];
 } VolumetricTable;
 
-/* What a volumetric compensation remembers. `weight` goes 0 … 1 and back while it switches. */
+/* What a volumetric compensation remembers.
+ *
+ * Its filters go from 0 to 1 and back along `smooth`: of the switch, of the tool length, and of releasing shifts.
+ */
 typedef struct {
     bool started;
     bool enable;  /* the input in the last cycle: its edges are the commands */
     bool command;  /* what was last commanded */
     bool no_move;  /* the command came with NO_MOVE */
-    double wanted_factor[LINEAR];  /* sign · CFACT of the command */
+    double wanted_factor[LINEAR];  /* CFACT of the command */
     bool on;  /* the command, while it can be obeyed */
-    int32_t step;
-    double weight;
+    double progress;  /* of the switch */
+    double weight;  /* the same along the filter */
     double factor[LINEAR];  /* the wanted one when it was last switched on */
     bool taking_part[LINEAR];  /* false: dropped, its correction has become a shift */
     bool absorbed[LINEAR];  /* what its correction changes in this cycle goes into the shift */
+    bool waiting[LINEAR];  /* its axis is still in the motion in which this came about */
     double value[LINEAR];  /* correction at full weight */
+    int32_t section[ERRORS];  /* of its path that a block follows, counted from 1; 0: not known yet */
     double contribution[LINEAR];  /* weight · value */
-    double shift[LINEAR];  /* what was absorbed: it stays until the next switch */
+    double shift[LINEAR];  /* what was absorbed: it stays until the next motion or switch */
     double held_shift[LINEAR];  /* the shift when its release began */
-    int32_t release_step[LINEAR];  /* of its release: cycles … 0 */
+    double release[LINEAR];  /* how much of its release is left */
+    double tool_length;  /* in use, mm */
+    double old_tool_length;  /* in use when the last change came */
+    double new_tool_length;  /* as it was last given */
+    double tool_progress;
+    double tool_change[LINEAR];  /* of the correction by the change that is under way */
 } VolumetricState;
 
 /* What the controller says about a volumetric compensation in this cycle. */
@@ -532,14 +546,23 @@ typedef struct {
 /* ============================ volumetric_errors ============================= */
 
 #define AT_NODE 1e-30  /* squared distance below which a position is a node */
+/* mm², squared distance from the section of a path that is followed, up to which it is never left */
+#define BESIDE 1.0
 
 /* ============================= volumetric_model ============================= */
 
 #define DEGREE 0.017453292519943295  /* HALF_PI / 90.0 */
 #define FRAME 12  /* W, then the columns of J: those of X, Y and Z in their order from the tool */
+#define EVALUATIONS 3  /* of the errors in a cycle */
+#define SETTLED 1e-6  /* mm; what another evaluation would change less is left */
 #define RESIDUAL 1e-9  /* mm */
 #define ITERATIONS 5
 #define SINGULAR 1e-6  /* volume spanned by the columns of J, which are unit vectors */
+
+/* =========================== volumetric_switching =========================== */
+
+#define STEEPEST 1.875  /* slope of `smooth` in its middle */
+#define ARRIVED 1e-9  /* a filter that is nearer to its end is there */
 
 /* ================================ volumetric ================================ */
 

@@ -91,3 +91,20 @@ def test_notices_and_findings_go_to_standard_error(folder: Path, capsys: pytest.
     told = capsys.readouterr().err
     assert "spam" in told
     assert "note: X[COMP ON] names no kind" in told
+
+
+def test_the_diagnosis_file_is_written_at_the_start_and_with_every_update(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    (tmp_path / "hochlauf.lis").write_text("vol_comp[0].file_name v.lis\nvol_comp[0].max_records 9\n")
+    (tmp_path / "v.lis").write_text("x 1\ny 2\nz 3\nfile[0] e.csv\ndiagnosis_file d.xlsx\n")
+    (tmp_path / "e.csv").write_text("X0X\n0.01\n")
+    program = tmp_path / "program.csv"
+    for command, values in (("", [0.01]), ("#VOLCOMP [ID 0 UPDATE]", [0.01])):
+        program.write_text(f"axis1.setpoint,command\n0,{command}\n")
+        (tmp_path / "d.xlsx").unlink(missing_ok=True)
+        assert main(["run", str(program), "--machine", str(tmp_path), "--output", str(tmp_path / "out.csv")]) == 0
+        cells = [cell for row in openpyxl.load_workbook(tmp_path / "d.xlsx").worksheets[1].values for cell in row]
+        assert [cell for cell in cells if cell in values] == values
+        assert capsys.readouterr().err.count("d.xlsx is written.") == 1 + bool(command)

@@ -21,9 +21,10 @@ N = 20
 def machine(**parameters: Any) -> Machine:
     """Return X with cross and leadscrew, Y with friction, Z, and two volumetric compensations of 0.01 and 0.1 mm."""
     cross = Cross(2, (0.0, 1.0), (0.5, 0.5), n_cycles=4, manual_activation=True)
-    x = Axis(1, "X", volumetric_limit=1.0, cross=cross, leadscrew=Leadscrew((0.0, 1.0), (-2.0, -2.0)))
-    y = Axis(2, "Y-Achse", volumetric_limit=1.0, friction=Friction((0.0,), (100.0,)))
-    z = Axis(3, "Z", AxisType.TRANSLATORY, volumetric_limit=1.0)
+    limits = {"volumetric_limit": 1.0, "volumetric_velocity": 1e6}
+    x = Axis(1, "X", cross=cross, leadscrew=Leadscrew((0.0, 1.0), (-2.0, -2.0)), **limits)
+    y = Axis(2, "Y-Achse", friction=Friction((0.0,), (100.0,)), **limits)
+    z = Axis(3, "Z", AxisType.TRANSLATORY, **limits)
     axes = (("X", 1), ("Y", 2), ("Z", 3))
     volumetric = tuple(
         Volumetric(index, axes, errors=(ErrorTable("X0X", (-value,)),), **parameters)
@@ -146,7 +147,7 @@ def test_a_run_with_commands_is_as_many_steps() -> None:
         ("Q[COMP ON CROSS]", 1, "an axis (X, Y-Achse, Z) is expected, not “Q”"),
         ("X[COMP ON CROSS] Z[COMP ON LEAD]", 18, "axis Z has no leadscrew compensation"),
         ("X[COMP ON FRICT]", 1, "error 70495: axis X has no friction compensation"),
-        ("#VOLCOMP ON [ID=1]", 1, "error 70506: there is no volumetric compensation 1: there is only 0, 2"),
+        ("#VOLCOMP ON [ID=1]", 1, "error 21749: there is no volumetric compensation 1: there is only 0, 2"),
         ("V.G.VOLCOMP[1].ACTIVE", 1, "error 70506"),
         ("V.G.VOLCOMP[0].FILE[0] = V.G.VOLCOMP[4].FILE[0]", 26, "error 70506"),
         ("#VOLCOMP [ID=0 UPDATE]", 1, "was not read from any"),
@@ -232,6 +233,56 @@ def test_a_refused_update_keeps_the_old_data(folder: Path, name: str, code: str)
     with pytest.raises(NcError, match=f"keeps its old data.*{code}"):
         engine.step(command="#VOLCOMP [ID=0 UPDATE]")
     assert engine.step()["X.volumetric.correction"] == pytest.approx(0.11)
+
+
+def test_an_update_renews_everything_of_the_list(folder: Path) -> None:
+    engine = Engine(folder)
+    assert engine.step(command="#VOLCOMP ON [ID=0]")["X.volumetric.correction"] == pytest.approx(0.01)
+    text = (folder / "vol_comp0.lis").read_text().replace("End", "") + "manual_activation 0\nfilter_steps 2\n"
+    (folder / "vol_comp0.lis").write_text(text + "negate X\n")
+    (folder / "vol_comp0.csv").write_text("X0X Y0Y\n-0.02 0.03\n")
+    held = engine.step(command="#VOLCOMP [ID=0 UPDATE]")
+    # It is automatic now: it comes back by itself, over two cycles.
+    assert held["volumetric[0].active"]
+    assert held["X.corrected_setpoint"] == pytest.approx(2.0 + 0.01 - 0.5 * (0.01 + 0.02))
+    after = engine.step()
+    assert after["X.volumetric.correction"] == pytest.approx(-0.02)
+    assert after["Y_Achse.volumetric.correction"] == pytest.approx(-0.03)
+    assert after["X.corrected_setpoint"] == pytest.approx(1.98)
+    (folder / "vol_comp0.lis").write_text(text + "set_to_zero X\n")
+    engine.step(command="#VOLCOMP [ID=0 UPDATE]")
+    engine.step()
+    assert engine.step()["X.volumetric.correction"] == 0.0
+
+
+def test_a_volumetric_command_in_motion_is_told(folder: Path) -> None:
+    engine = Engine(folder)
+    engine.step({"X.velocity": 5.0})
+    with_motion = engine.run({"command": ["#VOLCOMP ON ALL", "#VOLCOMP [ID=0 UPDATE]"]}).notices
+    told = "#VOLCOMP while X moves: the controller stops the machine first."
+    assert with_motion == (told, told)
+    engine.step({"X.velocity": 0.0})
+    assert engine.run({"command": ["#VOLCOMP OFF ALL"]}).notices == ()
+
+
+def test_what_is_active_can_be_read() -> None:
+    engine = Engine(machine())
+    engine.step(command="X[COMP ON CROSS]")
+    assert engine.nc.read("V.A.CROSS_COMP_ACTIVE.X") is True
+    assert engine.nc.read("v.a.lead_comp_active.x") is True
+    result = run(engine, 2, {0: "X[COMP OFF LEAD]", 1: "V.A.LEAD_COMP_ACTIVE.X V.A.FRICT_COMP_ACTIVE.Y-ACHSE"})
+    assert result.notices == ("V.A.LEAD_COMP_ACTIVE.X = False", "V.A.FRICT_COMP_ACTIVE.Y-ACHSE = True")
+    for name in ("V.A.PLANE_COMP_ACTIVE.X", "V.A.CROSS_COMP_ACTIVE.W", "V.A.CROSS_COMP_INIT.X"):
+        with pytest.raises(NcError):
+            engine.nc.read(name)
+    with pytest.raises(NcError, match="can only be read"):
+        engine.nc.write("V.A.CROSS_COMP_ACTIVE.X", "1")
+
+
+def test_an_update_is_told_to_whom_it_may_concern(folder: Path) -> None:
+    engine = Engine(folder)
+    engine.nc.on_update = lambda index: [f"{index} is new"]
+    assert engine.run({"command": ["#VOLCOMP [ID=2 UPDATE]"]}).notices == ("2 is new",)
 
 
 def test_an_update_cannot_change_the_axes_of_the_machine() -> None:

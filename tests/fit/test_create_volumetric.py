@@ -19,7 +19,7 @@ from axcomp.fit.volumetric_identification import TcpDeviations
 from axcomp.fit.volumetric_target import VolumetricTarget
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at
-from axcomp.kernel.volumetric_model import correction_at
+from axcomp.kernel.volumetric_model import correction_with
 from axcomp.lists import read_machine
 from axcomp.measurement.columns import MeasurementError
 from axcomp.model.companions import models
@@ -74,8 +74,8 @@ def corrected_by(found, measurement):
     corrected = measurement.positions.copy()
     for place, position, tool in zip(corrected, measurement.positions.tolist(), measurement.tool_lengths, strict=True):
         errors, correction = zeros(72), zeros(3)
-        errors_at(pool, table, position, errors)
-        assert correction_at(table, position, float(tool), errors, correction)
+        errors_at(pool, table, position, [0] * 72, errors)
+        assert correction_with(table, position, float(tool), errors, correction)
         place[:3] += correction
     return corrected
 

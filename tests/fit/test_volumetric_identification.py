@@ -168,6 +168,24 @@ def test_a_turning_axis_is_identified_all_the_way_round():
     )
 
 
+@pytest.mark.parametrize(
+    "turn", [[-180.0, -170.0, -160.0, -150.0, 0.0, 90.0, 180.0], [10.0, 70.0, 130.0, 190.0, 250.0, 310.0, 370.0]]
+)
+def test_data_over_a_full_turn_make_a_table_that_goes_round(turn):
+    machine = Volumetric(0, (*AXES, ("C", 6)), "CYXZ", 1)
+    measurement = places_of(np.array([-100.0, 150.0]), np.array([-80.0, 120.0]), np.array([0.0]), turn, tools=(0.0,))
+    deviations = np.zeros_like(measurement.deviations)
+    # The table carries the workpiece: the tip is seen the opposite way.
+    deviations[:, 2] = -6.0 * np.cos(np.radians(measurement.positions[:, 5]))
+    found = identify(replace(measurement, deviations=deviations), machine, ["EZC"])
+    (table,) = found.tables()
+    model = TcpModel(replace(machine, errors=(table,)))
+    places = np.zeros((len(turn) * 3, 6))
+    places[:, 5] = np.concatenate([np.add(turn, around) for around in (-360.0, 0.0, 360.0)])
+    errors = model.known_errors(places)
+    assert errors.max(axis=1) + errors.min(axis=1) == pytest.approx(0.006 * np.cos(np.radians(places[:, 5])), abs=1e-9)
+
+
 def test_errors_that_are_known_stay_and_are_taken_into_account():
     truth = (ErrorTable("C0Y", (5e-5,)), over("X", X, 0.01 * np.sin(X / 100.0), "EXX"))
     measurement = simulated(places_of(X, Y, Z), replace(PLAIN, errors=truth))

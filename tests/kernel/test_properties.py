@@ -198,7 +198,7 @@ def test_no_correction_is_larger_than_the_largest_value_of_its_table(machine: Ma
     run = drive(machine, columns)
     for axis in machine.axes:
         for compensation in axis.compensations:
-            output = f"{compensation.kind}_correction"
+            output = "current" if compensation.kind == "friction" else f"{compensation.kind}_correction"
             setpoints = columns[f"{axis.name}.setpoint"]
             bound = max(abs(value) for value in values_of(compensation, setpoints))
             assert np.abs(run[f"{axis.name}.{output}"]).max() <= bound * (1 + 1e-6) + 1e-12

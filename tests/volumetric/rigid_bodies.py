@@ -20,6 +20,7 @@ from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Volumet
 from axcomp.runtime.runtime import Runtime
 
 Matrix = NDArray[np.float64]
+FASTEST = 1e6  # mm/s: slows no filter down
 NUMBERS = {letter: number for number, letter in enumerate(LETTERS, 1)}
 
 
@@ -53,15 +54,26 @@ def axis_matrix(letter: str, machine: Volumetric, q: float, errors: Mapping[str,
         turned = rotation(small_turn(*component_turn))
         return translation(motion) @ translation(position_shift) @ translation(component_shift) @ turned
     center = machine.centers["ABC".index(letter)]
-    turn = rotation(Rotation.from_rotvec(np.radians(q) * e))
+    turn = translation(center) @ rotation(Rotation.from_rotvec(np.radians(q) * e)) @ translation(np.negative(center))
     if machine.alternative_model:
         displaced = translation(position_shift) @ rotation(small_turn(*position_turn))
-        inner = displaced @ turn @ np.linalg.inv(displaced)
-        inner = translation(component_shift) @ rotation(small_turn(*component_turn)) @ inner
-    else:
-        inner = translation(np.add(position_shift, component_shift))
-        inner = inner @ rotation(small_turn(*np.add(position_turn, component_turn))) @ turn
-    return translation(center) @ inner @ translation(np.negative(center))
+        displaced_turn = displaced @ turn @ np.linalg.inv(displaced)
+        return translation(component_shift) @ rotation(small_turn(*component_turn)) @ displaced_turn
+    shift = translation(np.add(position_shift, component_shift))
+    return shift @ rotation(small_turn(*np.add(position_turn, component_turn))) @ turn
+
+
+def interpolated_errors(machine: Volumetric, position: Mapping[str, float]) -> dict[str, float]:
+    """Return the errors at setpoints: constants, and tables over one axis."""
+    found = {}
+    for table in machine.errors:
+        found[table.name] = table.values[0]
+        if table.arguments:
+            index = LETTERS.index(table.arguments)
+            offset = machine.offsets[index] if table.arguments in LINEAR else np.degrees(machine.offsets[index])
+            nodes = [node[0] for node in table.nodes]
+            found[table.name] = float(np.interp(position[table.arguments] + offset, nodes, table.values))
+    return found
 
 
 def tool_place(
@@ -86,7 +98,7 @@ def machine_of(*compensations: Volumetric, limit: float | None = 1000.0) -> Mach
     """Return a machine whose axes X … C have the numbers 1 … 6."""
     types = dict.fromkeys(LINEAR, AxisType.TRANSLATORY)
     axes = (
-        Axis(number, letter, types.get(letter, AxisType.ROTARY), volumetric_limit=limit)
+        Axis(number, letter, types.get(letter, AxisType.ROTARY), volumetric_limit=limit, volumetric_velocity=FASTEST)
         for letter, number in NUMBERS.items()
     )
     return Machine(tuple(axes), compensations)

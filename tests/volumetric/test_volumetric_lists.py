@@ -37,6 +37,7 @@ def machine_files(**changes: Any) -> Files:
     files["errors.csv"] = changes.get("csv", CSV)
     for letter, number in axes.items():
         limit = "lr_param.vol_comp.s_limit 10000\n" if letter in changes.get("limited", LINEAR) else ""
+        limit += "lr_param.vol_comp.v_limit 2500\n" if letter in changes.get("slowed", LINEAR) else ""
         axis_type = 1 if letter in LINEAR else 2
         files[f"achsmd{number}.lis"] = (
             f"kopf.achs_nr {number}\nkopf.log_achs_name {letter}\nkenngr.achs_typ {axis_type}\n{limit}"
@@ -142,7 +143,7 @@ def test_splicing_leaves_other_tables_alone(read: Callable[..., Reading]) -> Non
     reading = read(csv=csv, volumetric=["enable_splicing 1"])
     machine = reading.machine
     sizes = {table.name: len(table.values) for table in machine.volumetric[0].errors}
-    assert sizes == {"EXC": 2, "EYC": 4, "EZC": 2, "EXX": 2}
+    assert sizes == {"EXC": 3, "EYC": 4, "EZC": 2, "EXX": 2}
 
 
 def test_blocks_with_the_same_arguments_make_one_table(read: Callable[..., Reading]) -> None:
@@ -224,8 +225,8 @@ OFF = [
     ({"volumetric": ["workpiece_axes 6"]}, ("AXC-CHAIN", "vol_comp0.lis", 9)),
     ({"volumetric": ["file[1] missing.csv"]}, ("AXC-MISSING", "vol_comp0.lis", 9)),
     ({"volumetric": ["file[10] errors.csv"]}, ("70507", "vol_comp0.lis", 9)),
-    ({"volumetric": ["file_format[0] ETALON_EXCHANGE", "file[0] errors.exc"], "files": {"errors.exc": "[Q]\n"}},
-     ("70468", "errors.exc", 1)),
+    ({"volumetric": ["file_format[0] ETALON_EXCHANGE"], "csv": "[EXX]\nVALUE = 1 2\n"},
+     ("AXC-RECORD", "errors.csv", 2)),
     ({"start_up": ["vol_comp[0].max_records 3"]}, ("AXC-MAX-RECORDS", "hochlauf.lis", 8)),
     ({"start_up": []}, ("AXC-MAX-RECORDS", "hochlauf.lis", 7)),
 ]  # fmt: skip
@@ -280,7 +281,12 @@ def test_a_file_too_many_is_said_to_keep_the_compensation_off(read: Callable[...
         ({"csv": CSV + "#\nEXA\n1e-3\n"}, ("AXC-UNUSED", "errors.csv", 5)),
         ({"csv": CSV + "#\nN0X N0Y N0Z\n0 0 -2\n"}, ("AXC-VECTOR", "errors.csv", 6)),
         ({"csv": CSV + "#\nN0X N0Y N0Z\n0 0 0\n"}, ("AXC-VECTOR", "errors.csv", 6)),
+        ({"csv": CSV + "#\nX0C A0C\n10.1 0.1\n"}, ("AXC-LARGE", "errors.csv", 6)),
+        ({"csv": CSV + "#\nX0C A0C\n10 -0.101\n"}, ("AXC-LARGE", "errors.csv", 6)),
+        ({"volumetric": ["enable_splicing 1"]}, ("AXC-SPLICING", "vol_comp0.lis", 9)),
+        ({"csv": "C EXC\n-180 0.001\n0 0.002\n180 0.0015\n"}, ("AXC-OPEN", "errors.csv", 1)),
         ({"limited": "XZ"}, ("AXC-LIMIT", "vol_comp0.lis", 2)),
+        ({"slowed": "Y"}, ("AXC-V-LIMIT", "vol_comp0.lis", 0)),
         ({"start_up": ["vol_comp[0].max_records 1000", "vol_comp[5].max_records 5"]}, ("70506", "hochlauf.lis", 9)),
     ],
 )
@@ -290,6 +296,31 @@ def test_less_grave_findings_leave_the_compensation_in_place(
     reading = read(**changes)
     assert found(reading) == [expected]
     assert len(reading.machine.volumetric) == 1
+
+
+MODULO_C = machine_files()["achsmd6.lis"] + "kenngr.achs_mode 0x4\n"
+GAP = "C EXC EAC EYC\n10 0.001 0 0\n180 0 5e-6 0\n350 -0.002 1e-5 0\n"
+
+
+def test_a_gap_on_an_axis_that_counts_modulo_is_told_with_the_size_of_the_jump(read: Callable[..., Reading]) -> None:
+    (finding,) = read(csv=GAP, files={"achsmd6.lis": MODULO_C}).findings
+    assert finding.message == (
+        "The records over C do not close: at 0° the correction jumps, EXC by 3 µm, EAC by 10 µrad."
+    )
+    assert read(csv=GAP).findings == ()  # an axis with ends never gets into the gap
+    assert read(csv=GAP, files={"achsmd6.lis": MODULO_C}, volumetric=["enable_splicing 1"]).findings == ()
+
+
+def test_splicing_repeats_the_first_record_wherever_it_is(read: Callable[..., Reading]) -> None:
+    reading = read(csv=GAP, files={"achsmd6.lis": MODULO_C}, volumetric=["enable_splicing 1"])
+    table = reading.machine.volumetric[0].errors[0]
+    assert (table.nodes[-1], table.values[-1]) == ((370.0,), 0.001)
+
+
+def test_a_gap_over_two_axes_is_told_too(read: Callable[..., Reading]) -> None:
+    csv = "X C EXC\n0 0 0.001\n0 270 0.002\n100 0 0\n100 270 0.004\n"
+    (finding,) = read(csv=csv, files={"achsmd6.lis": MODULO_C}).findings
+    assert finding.message.endswith("at -45° the correction jumps, EXC by 4 µm.")
 
 
 def test_a_tool_orientation_is_scaled_and_one_of_length_zero_left_out(read: Callable[..., Reading]) -> None:
@@ -350,19 +381,19 @@ def test_gantry_slaves_are_read(read: Callable[..., Reading]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("limits", "code", "sentence"),
+    ("limits", "expected", "sentence"),
     [
-        ("s_limit 10000\nlr_param.vol_comp.v_limit 500", "AXC-NOT-MODELLED", "v_limit of axis 9 is not modelled"),
-        ("v_limit 0", "AXC-LIMIT", "Axis 9 has no lr_param.vol_comp.s_limit"),
+        ("s_limit 10000", ("AXC-V-LIMIT", "vol_comp0.lis", 0), "No lr_param.vol_comp.v_limit for axis 9"),
+        ("v_limit 500", ("AXC-LIMIT", "vol_comp0.lis", 2), "Axis 9 has no lr_param.vol_comp.s_limit"),
     ],
 )
 def test_the_limits_of_a_gantry_slave_are_looked_at_as_its_masters(
-    read: Callable[..., Reading], limits: str, code: str, sentence: str
+    read: Callable[..., Reading], limits: str, expected: tuple[str, str, int], sentence: str
 ) -> None:
     slave = f"kopf.achs_nr 9\nkopf.log_achs_name Y2\nkenngr.gantry_ax_nr 2\nlr_param.vol_comp.{limits}\n"
     hochlauf = machine_files()["hochlauf.lis"].replace("zahl_mds 5", "zahl_mds 6\nachs_mds[5] achsmd9.lis")
     reading = read(files={"achsmd9.lis": slave, "hochlauf.lis": hochlauf})
-    assert found(reading) == [(code, "vol_comp0.lis", 2)]
+    assert found(reading) == [expected]
     assert sentence in reading.findings[0].message
 
 
@@ -434,7 +465,8 @@ def test_written_lists_read_back_to_the_same_machine(compensations: tuple[Volume
     assert read.machine == machine
     assert [one.diagnosis_file for one in read.machine.volumetric] == [one.diagnosis_file for one in compensations]
     codes = {finding.code for finding in read.findings}
-    assert codes <= {"70474"}
+    # Large errors, and tables over a full turn that do not close.
+    assert codes <= {"70474", "AXC-LARGE", "AXC-OPEN"}
 
 
 def test_a_list_that_cannot_be_read_back_is_not_written(tmp_path: Path) -> None:

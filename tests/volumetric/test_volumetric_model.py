@@ -47,7 +47,9 @@ def test_a_linear_axis_may_be_turned_about_itself(name: str) -> None:
 @pytest.mark.parametrize("name", ["A0A", "B0B", "C0C", "X0A", "Y0B", "Z0C"])
 def test_in_the_alternative_model_a_rotary_axis_may_be_displaced_along_itself(name: str) -> None:
     errors = {name: magnitude(name)}
-    alternative = volumetric("CBYXZA", workpiece_axes=3, centers=CENTERS, alternative_model=True, **TOOL)
+    # L turns about the origin of the machine: only an axis through it may be turned about itself.
+    centers = ((10.0, 0.0, 0.0), (0.0, 5.0, 0.0), (0.0, 0.0, 9.0)) if is_angle(name) else CENTERS
+    alternative = volumetric("CBYXZA", workpiece_axes=3, centers=centers, alternative_model=True, **TOOL)
     found = corrections(with_constant_errors(alternative, errors), PLACE)
     assert list(found.values()) == pytest.approx([0.0] * 3, abs=1e-12)
     usual = corrections(with_constant_errors(SIX_AXES, errors), PLACE)

@@ -133,6 +133,28 @@ def volumetric_lists(reading: Reading) -> tuple[list[VolumetricList], list[str]]
     return found, faults
 
 
+def write_named_diagnoses(reading: Reading, index: int | None = None) -> Iterator[Path | str]:
+    """Write the diagnosis files that volumetric lists name, or only that of one of them.
+
+    Yields the path of each, and sentences; what stands in the way of a file is one of these.
+    """
+    sources = [one for one in volumetric_lists(reading)[0] if one.diagnosis_file and index in (None, one.index)]
+    if not sources:
+        return
+    try:
+        from .files import Written, write_diagnoses
+    except ModuleNotFoundError as error:
+        names = ", ".join(source.diagnosis_file for source in sources)
+        yield f"{names} is not written without {error.name}: pip install 'axcomp[workbench]'."
+        return
+    for result in write_diagnoses(sources, reading):
+        if isinstance(result, Written):
+            yield result.path
+            yield from result.notes
+        else:
+            yield str(result)
+
+
 def diagnose(source: VolumetricList, reading: Reading) -> Diagnosis:
     """Return all records of the parameter files of a list; ``reading``: of its machine."""
     values = source.values

@@ -19,7 +19,7 @@ from ...lists import Position
 from ...lists.findings import Findings
 from ...model.machine import Axis, AxisType, Machine
 from ...model.quantity import symbol
-from ...model.volumetric import LETTERS, LINEAR, Volumetric
+from ...model.volumetric import FULL_TURN, LETTERS, LINEAR, Volumetric, turn_of
 from .positions import Positions, sentence
 
 TOLERANCE = 1e-6
@@ -138,15 +138,20 @@ def _of_volumetric(
     for letter, number in volumetric.axes:
         tables = [table for table in volumetric.errors if letter in table.arguments]
         axis = machine.numbered(number)
-        if number not in moved or not tables or (axis.type is not AxisType.TRANSLATORY and axis.modulo is not None):
-            continue
         nodes = [table.positions(letter) for table in tables]
+        if axis.type is not AxisType.TRANSLATORY:
+            nodes = [side for side in nodes if max(side) - min(side) < FULL_TURN]
+        if number not in moved or not nodes:
+            continue
         held = (max(map(min, nodes)), min(map(max, nodes)))
-        offset = volumetric.offsets[LETTERS.index(letter)] * (1.0 if letter in LINEAR else 180.0 / np.pi)
+        used = moved[number] + volumetric.offsets[LETTERS.index(letter)] * (1.0 if letter in LINEAR else 180.0 / np.pi)
+        turn = turn_of(*held, None if axis.modulo is None else axis.modulo.length)
+        if turn is not None:
+            used = turn[0] + np.mod(used - turn[0], turn[1])
         errors = " ".join([*(table.name for table in tables[:3]), *(["…"] if len(tables) > 3 else [])])
         name = f"volumetric compensation {volumetric.index} ({errors})"
         position = positions.of_volumetric(volumetric.index)
-        yield _coverage(name, axis.name, symbol(axis.unit), held, moved[number] + offset, position)
+        yield _coverage(name, axis.name, symbol(axis.unit), held, used, position)
 
 
 def _coverage(

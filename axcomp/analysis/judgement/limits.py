@@ -65,7 +65,7 @@ def largest_corrections(machine: Machine, tool_length: float = 0.0) -> Iterator[
         positions = np.array(list(product(*_sides(machine, volumetric))))
         model = TcpModel(volumetric)
         lengths = np.full(len(positions), tool_length)
-        corrections = model.corrections(positions, lengths, model.known_errors(positions))
+        corrections = model.corrections(positions, lengths)
         for index, letter in machine.members(volumetric).items():
             if letter in LINEAR and volumetric.sign(letter):
                 found = corrections[:, LINEAR.index(letter)]

@@ -33,6 +33,8 @@ OVER_THE_TABLE = {"Z": -250.0}
 TOOL_ORIENTATION = (0.0, 0.0, -1.0)
 LIMIT = 1.0
 """Largest correction, mm."""
+VELOCITY = 5.0
+"""Largest velocity at which a correction is switched, mm/s."""
 
 
 def five_axis(plant: Plant) -> Machine:
@@ -58,7 +60,7 @@ def five_axis(plant: Plant) -> Machine:
         centers=tuple(CENTERS.values()),
         files=("vol_comp1.exc",),
     )
-    axes = [Axis(NUMBERS[letter], letter, volumetric_limit=LIMIT) for letter in "XYZ"]
+    axes = [Axis(NUMBERS[letter], letter, volumetric_limit=LIMIT, volumetric_velocity=VELOCITY) for letter in "XYZ"]
     axes.append(Axis(NUMBERS["B"], "B", AxisType.ROTARY))
     axes.append(Axis(NUMBERS["C"], "C", AxisType.ROTARY, ModuloRange(0.0, 360.0)))
     return Machine(tuple(axes), (cartesian, rotary))

@@ -12,7 +12,7 @@ from axcomp.engine.trajectory import read_input
 from axcomp.kinds import CrosstalkCurve
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Machine
+from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
 from axcomp.model.volumetric import ErrorTable, Volumetric
 
 
@@ -51,6 +51,21 @@ def test_planes_accelerations_and_volumes_are_covered_too() -> None:
 def test_a_modulo_table_covers_everything() -> None:
     machine = table_of_c((0.0, 90.0, 180.0), (0.0, 0.0, 0.0))
     assert codes(machine, trajectory={"C.setpoint": np.array([300.0])}) == []
+
+
+def rotary_volume(nodes: tuple[float, ...]) -> Machine:
+    axes = (*(Axis(n, letter) for n, letter in enumerate("XYZ", 1)), Axis(4, "C", AxisType.ROTARY, ModuloRange()))
+    table = ErrorTable("EXC", (0.01,) * len(nodes), "C", tuple((node,) for node in nodes))
+    letters = tuple((axis.name, axis.number) for axis in axes)
+    return Machine(axes, (Volumetric(0, letters, "CXYZ", errors=(table,)),))
+
+
+def test_an_axis_that_counts_modulo_may_leave_a_volumetric_table_in_its_gap_only() -> None:
+    used = {"C.setpoint": np.array([350.0, 450.0, 400.0, 180.0])}
+    message = said(judge(rotary_volume((-90.0, 0.0, 90.0)), trajectory=used), "AXC-COVERAGE")
+    assert "(EXC) from -90 to 90" in message
+    assert "in 25 % of the rows" in message
+    assert codes(rotary_volume((-170.0, 0.0, 190.0)), trajectory=used) == []
 
 
 def test_the_examples_input_is_covered() -> None:
