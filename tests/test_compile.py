@@ -125,6 +125,12 @@ def test_a_modulo_table_over_its_whole_range_gets_no_further_point() -> None:
     assert tables.axis[0].leadscrew.positive.points == 2
 
 
+@pytest.mark.parametrize(("listed", "reserved"), [(None, 10201), (0, 10201), (12, 12)])
+def test_a_plane_has_10201_entries_where_the_list_does_not_say(listed: int | None, reserved: int) -> None:
+    tables = compile_tables(Machine((replace(X, plane=replace(PLANE, max_points=listed)),)))
+    assert tables.axis[0].plane.max_points == reserved
+
+
 @pytest.mark.parametrize(
     ("tests", "variant"),
     [
