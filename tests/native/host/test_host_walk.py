@@ -153,9 +153,10 @@ class Walk:
             (self.restore, 6),
             (self.through_bytes, 2),
             (self.spoilt_bytes, 2),
-            (self.cycle_time, 6),
-            (self.reload, 12),
-            (self.reload_in_between, 2),
+            (self.cycle_time, 3),
+            (self.set_reload, 3),
+            (self.set_path, 3),
+            (self.update, 8),
             (self.nulls, 1),
             (self.make_again, 2),
         ]
@@ -183,6 +184,8 @@ class Walk:
             self.say(f"free {slot}", OK)
         self.say(f"instantiate {slot} name{slot} 1 {GUID} . 1 0", 1)
         self.instances[slot].made()
+        if self.source.random() < 0.5:
+            self.cycle_time(slot, self.instances[slot])
 
     def make_again(self, slot: int, it: Expected) -> None:
         if self.source.random() < 0.5:
@@ -277,27 +280,35 @@ class Walk:
         if legal:
             it.runtime.tables.cycle_time = value
 
-    def reload(self, slot: int, it: Expected) -> None:
-        """Set the input that reads lists, or what it reads."""
+    def set_reload(self, slot: int, it: Expected, value: bool | None = None) -> None:
+        """Set the input that reads lists; ``value``: None: either."""
         legal = it.phase in ("instantiated", "init", "step")
-        if self.source.random() < 0.6:
-            value = self.source.random() < 0.6
-            self.say(f"set {slot} b {RELOAD} {int(value)}", OK if legal else ERROR)
-            if legal:
-                it.reload = value
-                it.watch(path_set=False)
-        else:
-            path = self.source.choice([*IMAGES, *REFUSED])
-            self.say(f"set {slot} s {UPDATE_PATH} {path}", OK if legal else ERROR)
-            if legal:
-                it.path = path
-                it.watch(path_set=True)
+        value = self.source.random() < 0.6 if value is None else value
+        self.say(f"set {slot} b {RELOAD} {int(value)}", OK if legal else ERROR)
+        if legal:
+            it.reload = value
+            it.watch(path_set=False)
 
-    def reload_in_between(self, slot: int, it: Expected) -> None:
-        """Read other lists, and do something else than a step with them."""
-        self.reload(slot, it)
-        self.reload(slot, it)
-        self.source.choice([self.change_phase, self.save, self.restore])(slot, it)
+    def set_path(self, slot: int, it: Expected) -> None:
+        legal = it.phase in ("instantiated", "init", "step")
+        path = self.source.choice([*IMAGES, *REFUSED])
+        self.say(f"set {slot} s {UPDATE_PATH} {path}", OK if legal else ERROR)
+        if legal:
+            it.path = path
+            it.watch(path_set=True)
+
+    def update(self, slot: int, it: Expected) -> None:
+        """Read other lists, perhaps do something in between, and step with them."""
+        self.set_reload(slot, it, False)
+        self.step(slot, it)
+        self.set_path(slot, it)
+        self.set_reload(slot, it, True)
+        self.source.choice([self.step, self.step, self.change_phase, self.save, self.restore])(slot, it)
+        for _ in range(2):
+            if it.phase != "step":
+                self.proceed(slot, it)
+        self.step(slot, it)
+        self.get_all(slot, it)
 
     def get_one(self, slot: int, it: Expected) -> None:
         self._get(slot, it, [(self.source.randrange(AXES), self.source.choice(OUTPUTS))])
