@@ -82,6 +82,30 @@ def test_no_move_holds_for_its_command_only() -> None:
     assert engine.runtime.inputs.axis[0].no_move is False
 
 
+@pytest.mark.parametrize(
+    "block",
+    [
+        "X[COMP ON CROSS NO_MOVE] X[COMP OFF LEAD]",
+        "X[COMP ON CROSS] X[COMP OFF LEAD NO_MOVE]",
+        "X[COMP ON CROSS NO_MOVE] X[COMP OFF LEAD NO_MOVE]",
+    ],
+)
+@pytest.mark.parametrize("given", [False, True])
+def test_two_commands_for_an_axis_in_one_cycle_leave_no_move_as_it_was(block: str, given: bool) -> None:
+    engine = Engine(machine())
+    engine.step({"X.no_move": given})
+    engine.step(command=block)
+    assert engine.runtime.inputs.axis[0].no_move is given
+
+
+def test_no_move_holds_for_all_its_command_switches() -> None:
+    """Cross comes on with 0.5 mm and the leadscrew's 2 mm go: the axis stays where it is, by the shift 1.5 mm."""
+    engine = Engine(machine())
+    result = run(engine, 6, {3: "X[COMP ON CROSS NO_MOVE OFF LEAD]"})
+    assert result["X.corrected_setpoint"] == pytest.approx([2.0 + 0.11] * 6)
+    assert result["X.setpoint_shift"].tolist() == [0.0] * 3 + [1.5] * 3
+
+
 def test_comp_on_without_a_kind_switches_all_on_and_says_so() -> None:
     engine = Engine(machine())
     result = run(engine, 6, {0: "X[COMP OFF_ALL]", 1: "X[COMP ON]"})
@@ -110,6 +134,14 @@ def test_cfact_is_not_modal() -> None:
     engine = Engine(machine(manual_activation=True, filter_steps=0))
     result = run(engine, 6, {0: "#VOLCOMP ON [ID=2 CFACT_X=0.5]", 2: "#VOLCOMP OFF [ID=2]", 4: "#VOLCOMP ON [ID=2]"})
     assert result["X.volumetric.correction"] == pytest.approx([0.05, 0.05, 0.0, 0.0, 0.1, 0.1])
+
+
+def test_two_factors_of_one_cycle_do_not_stay() -> None:
+    engine = Engine(machine(manual_activation=True, filter_steps=0))
+    result = run(engine, 4, {0: "#VOLCOMP ON [ID=2 CFACT_X=0.5] #VOLCOMP ON [ID=2 CFACT_X=0.3 NO_MOVE]"})
+    assert result["X.volumetric.correction"] == pytest.approx([0.03] * 4)
+    given = engine.runtime.inputs.volumetric[2]
+    assert (given.factor_x, given.no_move) == (1.0, False)
 
 
 def test_volcomp_with_no_move_moves_nothing() -> None:

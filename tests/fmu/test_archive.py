@@ -4,6 +4,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from frozen import GUID
 
 from axcomp.fmu.archive import BuildError, content_guid, generation_date, write_fmu
 
@@ -23,6 +24,7 @@ def test_a_guid_depends_on_names_and_contents() -> None:
     guids = {content_guid(parts) for parts in ({}, {"a": b"b"}, {"ab": b""}, {"a": b"", "b": b""}, {"a": b"c"})}
     assert len(guids) == 5
     assert all(len(guid) == 38 and guid[0] == "{" and guid[-1] == "}" for guid in guids)
+    assert content_guid({"b/c": b"", "a": b"one"}) == GUID
 
 
 def test_a_file_that_cannot_be_written_leaves_the_old_one(tmp_path: Path) -> None:

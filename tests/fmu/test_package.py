@@ -46,6 +46,17 @@ def test_the_guid_follows_the_contents(fmu: Path, lists: Path, tmp_path: Path) -
     assert fmpy.read_model_description(other).guid != fmpy.read_model_description(fmu).guid
 
 
+def test_the_guid_follows_the_model_description(fmu: Path, lists: Path, tmp_path: Path) -> None:
+    """All else in the three FMUs is the same: names of variables, and what a host is told, belong to the model."""
+    others = [
+        package_axcomp(lists, tmp_path / "flat.fmu", naming="flat").path,
+        package_axcomp(lists, tmp_path / "alone.fmu", external_tool=False).path,
+    ]
+    first, *rest = ({**contents(path), "modelDescription.xml": b""} for path in (fmu, *others))
+    assert rest == [first, first]
+    assert len({fmpy.read_model_description(path).guid for path in (fmu, *others)}) == 3
+
+
 def test_lists_lie_to_each_other_as_they_do_on_disk(tmp_path: Path) -> None:
     project = tmp_path / "private" / "project"
     write_machine(three_axes(), project / "lists")

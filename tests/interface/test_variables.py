@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import is_dataclass, replace
 from typing import Any
@@ -135,6 +136,17 @@ def test_no_output_changes_with_an_input_it_does_not_depend_on() -> None:
                 seen.add(output.name)
                 assert variable.name in (output.depends_on or ()), output.name
     assert len(seen) > 15
+
+
+@pytest.mark.parametrize("quantity", ["setpoint", "velocity", "acceleration", "actual_position"])
+@pytest.mark.parametrize("axis", ["X", "Y_ACHSE", "C"])
+def test_the_error_of_an_axis_depends_on_what_may_be_no_number(axis: str, quantity: str) -> None:
+    columns = _columns(10)
+    columns[f"{axis}.{quantity}"][5] = math.nan
+    result = Engine(three_axes()).run(columns)
+    errors = {name: result[f"{name}.error"].tolist() for name in ("X", "Y_ACHSE", "C")}
+    assert errors == {name: [901 * (name == axis and k == 5) for k in range(10)] for name in errors}
+    assert f"{axis}.{quantity}" in (by_name(variables_of(three_axes()))[f"{axis}.error"].depends_on or ())
 
 
 def _columns(cycles: int) -> dict[str, list[float | bool]]:

@@ -20,6 +20,7 @@ from finding_cases import (
     places,
     start_up,
 )
+from frozen import SEVERITIES
 
 from axcomp.lists import CODES, Finding, ListError, Reading, Severity, read_machine
 from axcomp.lists.findings import LIMIT, Findings
@@ -37,7 +38,7 @@ def test_lists_provoke_a_finding_at_its_place_and_the_rest_keeps_working(case: C
     found = [f for f in reading.findings if f.code == case.code]
     assert (case.line, case.parameter) in [(f.line, f.parameter) for f in found], reading.findings
     for finding in found:
-        assert finding.severity is CODES[case.code][0]
+        assert finding.severity.value == SEVERITIES[case.code]
         assert finding.message.endswith(".")
         assert finding.file
     axis = next((axis for axis in reading.machine.axes if axis.number == 1), None)
@@ -70,6 +71,10 @@ def test_a_printed_finding_names_the_entry(case: Case, read_lists: ReadLists) ->
 def test_errors_speak_in_the_numbers_of_the_list(text: str, sentence: str, read_lists: ReadLists) -> None:
     found = [f for f in read_lists({"achskw1.lis": text}).findings if f.severity is Severity.ERROR]
     assert [sentence in finding.message for finding in found if finding.code != "AXC-GAP"] == [True]
+
+
+def test_codes_and_severities_are_the_ones_users_know() -> None:
+    assert {code: severity.value for code, (severity, _) in CODES.items()} == SEVERITIES
 
 
 def test_every_code_is_provoked() -> None:

@@ -130,6 +130,8 @@ def test_the_guid_follows_the_tables_and_variables_only(
     assert fmpy.read_model_description(dated).guid == guid
     slower = package_native(lists, tmp_path / "slower.fmu", cycle_time=0.002).path
     assert fmpy.read_model_description(slower).guid != guid
+    flat = package_native(lists, tmp_path / "flat.fmu", naming="flat").path
+    assert fmpy.read_model_description(flat).guid != guid
     write_machine(three_axes(2.0), tmp_path / "other")
     assert fmpy.read_model_description(package_native(tmp_path / "other", tmp_path / "o.fmu").path).guid != guid
 

@@ -62,19 +62,21 @@ def coming_in(fmu: Path, path: str) -> list[float]:
         return [row["X.leadscrew.correction"] for row in outputs]
 
 
-def on_the_move(fmu: Path, path: Path, rows: list[dict[str, Any]], at: int) -> list[dict[str, Any]]:
-    with Host(fmu) as host:
-        outputs = host.run(rows[:at])
+def on_the_move(fmu: Path, path: Path, rows: list[dict[str, Any]], at: int, cycle_time: float) -> list[dict[str, Any]]:
+    with Host(fmu, parameters={"cycle_time": cycle_time}) as host:
+        outputs = [host.step(row, cycle_time) for row in rows[:at]]
         host.set({"update_path": str(path), "reload": True})
-        outputs += host.run(rows[at : at + 10])
+        outputs += [host.step(row, cycle_time) for row in rows[at : at + 10]]
         host.set({"reload": False})
-        return outputs + host.run(rows[at + 10 :])
+        return outputs + [host.step(row, cycle_time) for row in rows[at + 10 :]]
 
 
-def test_an_update_on_the_move_has_the_bits_of_the_engine(native_fmu: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("cycle_time", [0.001, 0.004])
+def test_an_update_on_the_move_has_the_bits_of_the_engine(native_fmu: Path, tmp_path: Path, cycle_time: float) -> None:
+    """The cycle time is the host's, whatever the image was made for (0.001 s)."""
     rows = trajectory(160)
-    found = in_child(on_the_move, native_fmu, image(three_axes(3.0), tmp_path), rows, 73)
-    engine = Engine(three_axes())
+    found = in_child(on_the_move, native_fmu, image(three_axes(3.0), tmp_path), rows, 73, cycle_time)
+    engine = Engine(three_axes(), cycle_time)
     expected = [engine.step(row) for row in rows[:73]]
     engine.runtime.update(three_axes(3.0))
     expected += [engine.step(row) for row in rows[73:]]

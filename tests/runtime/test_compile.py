@@ -12,6 +12,7 @@ from axcomp.kernel.compensations import PLANE as PLANE_KIND
 from axcomp.kernel.crosstalk import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
 from axcomp.kernel.fit import tables_fit
 from axcomp.kinds import (
+    KINDS,
     Backlash,
     Cross,
     Crosstalk,
@@ -130,6 +131,12 @@ def test_a_modulo_table_over_its_whole_range_gets_no_further_point() -> None:
     leadscrew = Leadscrew((0.0, 360.0), (1.0, 2.0), modulo=True)
     tables, _ = compile_tables(Machine((Axis(1, "C", AxisType.ROTARY, ModuloRange(), leadscrew=leadscrew),)))
     assert tables.axis[0].compensation.leadscrew.positive.points == 2
+
+
+@pytest.mark.parametrize(("listed", "reserved"), [(None, 10201), (0, 10201), (12, 12)])
+def test_a_plane_has_10201_entries_where_the_list_does_not_say(listed: int | None, reserved: int) -> None:
+    tables, _ = compile_tables(Machine((X.having(replace(PLANE, max_points=listed)),)))
+    assert tables.axis[0].switching[list(KINDS).index("plane")].reserved == reserved
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,17 @@ from hypothesis import strategies as st
 from strategies import machines
 
 from axcomp.kernel.compensations import BACKLASH, CROSS, CROSSTALK, FRICTION, LEADSCREW, PLANE, TEMPERATURE
-from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
+from axcomp.kinds import (
+    Backlash,
+    Cross,
+    Crosstalk,
+    CrosstalkCurve,
+    CrosstalkTest,
+    Friction,
+    Leadscrew,
+    Plane,
+    Temperature,
+)
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import CompileError
 from axcomp.runtime.runtime import Runtime, SnapshotError, UpdateError
@@ -584,6 +594,12 @@ class TestUpdate:
             runtime.update(Machine((X, replace(Z, cross=Cross(1, (1.0, 1.0), (0.0, 0.0))))))
         assert runtime.save() == before
 
+    @pytest.mark.parametrize(("points", "refused"), [(10201, {}), (10200, {"Z": 110640}), (10202, {"Z": 110640})])
+    def test_a_plane_without_max_points_has_room_for_101_by_101(self, points: int, refused: dict[str, int]) -> None:
+        """The default of kw.crosscomp2.max_points: naming it changes nothing, another number is another table."""
+        runtime = Runtime(MACHINE)
+        assert runtime.update(Machine((X, replace(Z, plane=replace(Z.plane, max_points=points))))) == refused
+
     def test_a_held_axis_holds_its_outputs_over_an_update(self) -> None:
         runtime = Runtime(MACHINE)
         run(runtime, 0, 30)
@@ -592,6 +608,29 @@ class TestUpdate:
         runtime.inputs.axis[1].setpoint = float("nan")
         runtime.cycle()
         assert replace(runtime.outputs.axis[1], error=0) == before
+
+
+class TestNotices:
+    GRID = tuple(CrosstalkTest(p1, p2, 0.01, 0.01, 0.01, 0.01) for p2 in (0.0, 10.0) for p1 in (0.0, 10.0))
+
+    def runtime(self) -> Runtime:
+        """Return X, and two axes whose crosstalk is adapted to X and Y within 0 … 10 mm."""
+        crosstalk = Crosstalk(1, 1e3, -1e3, 3, self.GRID, 1, 2)
+        return Runtime(Machine((X, Axis(2, "Y", crosstalk=crosstalk), Axis(3, "Z", crosstalk=crosstalk))))
+
+    def test_who_has_left_the_tests_is_told_once(self) -> None:
+        runtime = self.runtime()
+        runtime.cycle()
+        assert list(runtime.notices()) == []
+        runtime.inputs.axis[0].setpoint = 10.5
+        runtime.cycle()
+        first = list(runtime.notices())
+        assert [notice.split(":")[0] for notice in first] == ["axis Y", "axis Z"]
+        assert all("have left the tests' positions" in notice for notice in first)
+        for setpoint in (10.5, 5.0, 11.0):
+            runtime.inputs.axis[0].setpoint = setpoint
+            runtime.cycle()
+            assert list(runtime.notices()) == []
 
 
 def test_an_empty_machine_runs() -> None:

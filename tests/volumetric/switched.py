@@ -22,6 +22,11 @@ def shifted(**parameters: Any) -> Volumetric:
     return with_constant_errors(volumetric("CXYZ", **parameters), SHIFTS)
 
 
+def doubled(**parameters: Any) -> Volumetric:
+    """Return a compensation that adds twice ``VALUES``."""
+    return with_constant_errors(volumetric("CXYZ", **parameters), {name: 2 * value for name, value in SHIFTS.items()})
+
+
 def smooth(steps: NDArray[np.int64], n: int = N) -> NDArray[np.float64]:
     u = np.clip(steps / n, 0, 1)
     return 10 * u**3 - 15 * u**4 + 6 * u**5

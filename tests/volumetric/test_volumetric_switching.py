@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 from rigid_bodies import machine_of, volumetric, with_constant_errors
-from switched import SHIFTS, VALUES, Bench, N, shifted, smooth
+from switched import SHIFTS, VALUES, Bench, N, doubled, shifted, smooth
 
 from axcomp.model.machine import Axis, AxisType
 from axcomp.model.volumetric import ErrorTable, Interpolation, Volumetric
-from axcomp.runtime.runtime import UpdateError
+from axcomp.runtime.runtime import SnapshotError, UpdateError
 
 
 def test_an_automatic_compensation_begins_at_full_weight() -> None:
@@ -416,8 +416,7 @@ def test_the_display_does_not_show_corrections_and_shifts() -> None:
 def test_an_update_switches_off_without_motion_and_automatic_activation_comes_back() -> None:
     bench = Bench(shifted())
     bench.run()
-    doubled = with_constant_errors(volumetric("CXYZ"), {name: 2 * value for name, value in SHIFTS.items()})
-    bench.runtime.update(machine_of(doubled))
+    bench.runtime.update(machine_of(doubled()))
     offsets = bench.run(N + 5)
     assert offsets[-1] == pytest.approx(2 * VALUES)
     assert offsets[:N] == pytest.approx(VALUES + smooth(np.arange(1, N + 1))[:, None] * VALUES)
@@ -432,6 +431,39 @@ def test_an_update_of_a_manual_compensation_needs_a_new_command() -> None:
     bench.runtime.update(machine_of(shifted(manual_activation=True)))
     assert bench.run(N + 5) == pytest.approx(np.tile(VALUES, (N + 5, 1)))
     assert not bench.active()
+
+
+def test_what_an_update_has_switched_off_is_not_active_before_the_next_cycle_either() -> None:
+    bench = Bench(shifted(), shifted(index=1))
+    bench.run()
+    outputs = bench.runtime.outputs.volumetric
+    assert [one.active for one in outputs] == [True, True]
+    bench.runtime.update_volumetric(doubled(index=1))
+    assert [one.active for one in outputs] == [True, False]
+    bench.runtime.update(machine_of(doubled(), doubled(index=1)))
+    assert [one.active for one in outputs] == [False, False]
+
+
+def test_a_snapshot_from_before_an_update_of_one_compensation_is_refused() -> None:
+    bench = Bench(shifted())
+    bench.run()
+    before = bench.runtime.save()
+    bench.runtime.update_volumetric(doubled())
+    bench.run(3)
+    kept = repr((bench.runtime.state, bench.runtime.inputs, bench.runtime.outputs))
+    with pytest.raises(SnapshotError, match="another machine"):
+        bench.runtime.restore(before)
+    assert repr((bench.runtime.state, bench.runtime.inputs, bench.runtime.outputs)) == kept
+
+
+def test_a_snapshot_from_after_an_update_of_one_compensation_fits_a_machine_with_the_new_lists() -> None:
+    bench, other = Bench(shifted()), Bench(doubled())
+    bench.run()
+    assert bench.runtime.save()
+    bench.runtime.update_volumetric(doubled())
+    bench.run(3)
+    other.runtime.restore(bench.runtime.save())
+    assert other.run(N).tolist() == bench.run(N).tolist()
 
 
 def test_an_update_cannot_add_a_compensation() -> None:

@@ -27,6 +27,8 @@ from axcomp.runtime.compile import compile_tables
 
 GUID = "{3b2f6c1e-0000-4000-8000-00000000beef}"
 MACHINE = machine_of(3, 12)
+AT_ONCE = replace(MACHINE, axes=tuple(replace(axis, backlash_cycles=0) for axis in MACHINE.axes))
+"""The same without blending over."""
 RELOAD, UPDATE_PATH, SETPOINT, CORRECTION, AXIS_ERROR = 2, 3, BLOCK, BLOCK + 30, BLOCK + 12
 PLAIN = pytest.mark.parametrize("way", ["gcc", "sanitized"])
 
@@ -246,6 +248,91 @@ def test_states_from_before_and_after_an_update(host: Callable[[str], Program], 
 
 
 @PLAIN
+def test_a_state_with_lists_that_wait_fits_only_where_they_are(
+    host: Callable[[str], Program], way: str, resources: Path
+) -> None:
+    (resources / "new.bin").write_bytes(image(doubled(MACHINE)))
+    script = [*started(resources), *started(resources, 1), f"set 0 s {UPDATE_PATH} new.bin", f"set 0 b {RELOAD} 1"]
+    script += ["save 0 8", "serialize 0 8 0", "restore 1 8", "deserialize 1 8 0 -1", "restore 0 8", "release 0 8"]
+    answers = host(way).run(script, resources)[-4:]
+    assert [answer.status for answer in answers] == [ERROR, ERROR, OK, OK]
+    assert ["the state belongs to other lists" in " ".join(answer.log) for answer in answers[:2]] == [True, True]
+
+
+@PLAIN
+def test_a_reset_forgets_lists_that_wait(host: Callable[[str], Program], way: str, resources: Path) -> None:
+    (resources / "tables.bin").write_bytes(image(AT_ONCE))
+    (resources / "new.bin").write_bytes(image(doubled(AT_ONCE)))
+    path, edge = f"set 0 s {UPDATE_PATH} new.bin", f"set 0 b {RELOAD} 1"
+    script = [*started(resources), *moved(0, 0.0, 100.0), path, edge, "reset 0", "enter 0", "exit 0"]
+    script += [*moved(0, 0.0, 100.0), path, edge, *moved(0, 0.001, 100.0)]
+    answers = host(way).run(script, resources)
+    before, reset, after = (
+        real(answer.values[0]) for line, answer in zip(script, answers, strict=True) if line.startswith("get")
+    )
+    assert reset == before != 0.0
+    assert after == 2 * before
+
+
+@PLAIN
+def test_an_axis_keeps_the_lists_in_force_whatever_it_kept_before(
+    host: Callable[[str], Program], way: str, resources: Path
+) -> None:
+    """The same image mixed with two others: each time the first axis keeps what it has, 110638 says so."""
+    (resources / "tables.bin").write_bytes(image(AT_ONCE))
+    (resources / "sizes.bin").write_bytes(image(doubled(doubled(AT_ONCE), max_points=1400)))
+    (resources / "twice.bin").write_bytes(image(doubled(AT_ONCE)))
+    script = [*started(resources), *moved(0, 0.0, 100.0)]
+    for k, name in enumerate(("sizes", "twice", "sizes")):
+        script += [f"set 0 s {UPDATE_PATH} {name}.bin", f"set 0 b {RELOAD} 1", *moved(0, 0.001 * (k + 1), 100.0)]
+        script += [f"get 0 i {AXIS_ERROR}", f"save 0 {8 + k}", f"set 0 b {RELOAD} 0", f"step 0 {bits(0)} {bits(0)}"]
+    for state in (8, 9, 10):
+        script += [f"restore 0 {state}", *moved(0, 0.1, 100.0), f"release 0 {state}"]
+    answers = host(way).run(script, resources)
+    said = list(zip(script, answers, strict=True))
+    first, *values = [real(answer.values[0]) for line, answer in said if line.startswith("get 0 r")]
+    assert first != 0.0
+    assert values == [first, 2 * first, 2 * first] * 2
+    assert [answer.values for line, answer in said if line.startswith("get 0 i")] == [["110638"], ["0"], ["110638"]]
+
+
+@PLAIN
+def test_every_run_has_its_notice(host: Callable[[str], Program], way: str, resources: Path) -> None:
+    """Once that the tests of crosstalk, 0 mm and more, have been left; after a reset once again."""
+    script = [*started(resources), "debug 0 1"]
+    for _ in range(2):
+        script += [*moved(0, 0.0, 1.0), *moved(0, 0.001, -1.0), *moved(0, 0.002, -2.0), "reset 0", "enter 0", "exit 0"]
+    answers = host(way).run(script, resources)
+    logs = [answer.log for line, answer in zip(script, answers, strict=True) if line.startswith("step")]
+    assert [len(log) for log in logs] == [0, 2, 0] * 2
+    assert logs[1] == logs[4]
+    for axis, said in zip((2, 3), logs[1], strict=True):
+        assert said.startswith(f"log 1 logStatusWarning name: axis {axis}: the adaptation axes of its crosstalk")
+
+
+@PLAIN
+def test_a_percent_sign_reaches_the_log_of_the_host(host: Callable[[str], Program], way: str, resources: Path) -> None:
+    """The host takes a message for a format (its log function complains about one it would expand)."""
+    name = "100%s_%n%25"
+    script = [*started(resources), "debug 0 1", f"set 0 s {UPDATE_PATH} {name}", f"set 0 b {RELOAD} 1"]
+    assert host(way).run(script, resources)[-1].log == [f"log 1 logStatusWarning name: reload: {name} cannot be read"]
+
+
+@PLAIN
+def test_the_longest_path_fits_and_a_longer_one_is_refused(
+    host: Callable[[str], Program], way: str, resources: Path
+) -> None:
+    longest = "x" * 4095
+    get = f"get 0 s {UPDATE_PATH}"
+    script = [*started(resources), f"set 0 s {UPDATE_PATH} {longest}", get]
+    script += [line for more in (1, 2, 1000) for line in (f"set 0 s {UPDATE_PATH} {'y' * (4095 + more)}", get)]
+    answers = host(way).run([*script, *moved(0, 0.0, 100.0)], resources)[3:-3]
+    assert [answer.status for answer in answers] == [OK, OK] + [ERROR, OK] * 3
+    assert [answer.values for answer in answers[1::2]] == [[f"<{longest}>"]] * 4
+    assert all("more than 4095 bytes" in answer.log[0] for answer in answers[2::2])
+
+
+@PLAIN
 def test_the_order_of_path_and_edge_does_not_matter(host: Callable[[str], Program], way: str, resources: Path) -> None:
     new = resources / "new.bin"
     new.write_bytes(image(doubled(MACHINE)))
@@ -275,8 +362,7 @@ def test_an_empty_path_means_the_image_in_the_resources(
 @PLAIN
 def test_updates_without_end_need_no_memory(host: Callable[[str], Program], way: str, resources: Path) -> None:
     """Two images in turn, a thousand times: the instance keeps each of them once."""
-    at_once = replace(MACHINE, axes=tuple(replace(axis, backlash_cycles=0) for axis in MACHINE.axes))
-    for name, machine in (("a.bin", at_once), ("b.bin", doubled(at_once))):
+    for name, machine in (("a.bin", AT_ONCE), ("b.bin", doubled(AT_ONCE))):
         (resources / name).write_bytes(image(machine))
     turn = []
     for k in range(1000):

@@ -6,6 +6,7 @@ import copy
 import math
 import random
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from axcomp.bench.machines import machine_of
 from axcomp.interface.slot import Slot, slot_in
 from axcomp.interface.variable import BLOCK
 from axcomp.interface.variables import AXIS_DECLARATIONS, OF_MACHINE
+from axcomp.kernel.records import ERROR_UPDATE
 from axcomp.model.machine import Machine
 from axcomp.native.image import image_of
 from axcomp.runtime.compile import compile_tables
@@ -28,6 +30,8 @@ CYCLE_TIME = next(d.identifier for d in OF_MACHINE if d.name == "cycle_time")
 INPUTS = [d for d in AXIS_DECLARATIONS if d.causality == "input" and d.kind != "volumetric"]
 OUTPUTS = [d for d in AXIS_DECLARATIONS if d.causality == "output" and d.kind != "volumetric"]
 LETTERS = {float: "r", int: "i", bool: "b"}
+RELOAD = next(d.identifier for d in OF_MACHINE if d.name == "reload")
+UPDATE_PATH = next(d.identifier for d in OF_MACHINE if d.name == "update_path")
 SIZES = [0.0, 0.001, 0.001, 0.001, 0.00100005, 0.0003, 0.0007, 0.0123, 0.001 / 3, 5e-324]
 
 
@@ -37,28 +41,99 @@ def slot_at(record: Any, path: str) -> Slot:
     return slot
 
 
+def with_other_screw(scale: float, max_points: int) -> Machine:
+    """Return the machine with other pitch errors of its first axis."""
+    first = MACHINE.axes[0]
+    assert first.leadscrew is not None
+    values = tuple(scale * value for value in first.leadscrew.positive)
+    screw = replace(first.leadscrew, positive=values, max_points=max_points)
+    return replace(MACHINE, axes=(first.having(screw), *MACHINE.axes[1:]))
+
+
+IMAGES = {
+    "tables.bin": MACHINE,
+    "twice.bin": with_other_screw(2.0, 1500),
+    "thrice.bin": with_other_screw(3.0, 1500),
+    "sizes.bin": with_other_screw(4.0, 1400),  # the first axis keeps what it has
+    "axes.bin": machine_of(AXES + 1, 12),
+}
+REFUSED = ("axes.bin", "nowhere.bin")
+Name = str | tuple[Any, ...]
+"""Lists by the file they came from; a tuple where the first axis has kept its own: the file, and what was in force."""
+
+
 class Expected:
     """One instance, as the standard and the Python runtime say it must behave."""
 
     def __init__(self, machine: Machine) -> None:
         self.runtime = Runtime(machine)
-        self.fresh = copy.deepcopy(self._memory())
+        self.known: set[Name] = set()
         self.phase = "none"
+        self._forget()
+        self.fresh = self.save()
 
-    def _memory(self) -> tuple[Any, ...]:
+    def _forget(self) -> None:
+        self.lists: Name = "tables.bin"
+        self.path = ""
+        self.reload = self.seen = False
+        self.waiting: str | None = None
+
+    def save(self) -> dict[str, Any]:
         r = self.runtime
-        return r.state, r.inputs, r.outputs, r.start_time, r.cycles, r.tables.cycle_time
+        return {
+            "phase": self.phase,
+            "memory": copy.deepcopy((r.state, r.inputs, r.outputs, r.start_time, r.cycles)),
+            "machine": (r.machine, r.pool, copy.copy(r.tables)),
+            "reload": (self.lists, self.path, self.reload, self.seen, self.waiting),
+        }
 
-    def save(self) -> tuple[Any, ...]:
-        return self.phase, copy.deepcopy(self._memory())
-
-    def restore(self, saved: tuple[Any, ...]) -> None:
+    def restore(self, saved: dict[str, Any]) -> None:
         r = self.runtime
-        self.phase, memory = saved[0], copy.deepcopy(saved[1])
-        r.state, r.inputs, r.outputs, r.start_time, r.cycles, r.tables.cycle_time = memory
+        self.phase = saved["phase"]
+        r.state, r.inputs, r.outputs, r.start_time, r.cycles = copy.deepcopy(saved["memory"])
+        r.machine, r.pool, tables = saved["machine"]
+        r.tables = copy.copy(tables)
+        self.lists, self.path, self.reload, self.seen, self.waiting = saved["reload"]
 
     def reset(self) -> None:
-        self.restore(("instantiated", self.fresh))
+        self.restore(self.fresh)
+        self.phase = "instantiated"
+
+    def made(self) -> None:
+        self.reset()
+        self.known = {"tables.bin"}
+
+    # Updates: read when the input rises, taken or refused with the next step
+
+    def has_lists_of(self, saved: dict[str, Any]) -> bool:
+        """Tell whether all lists that a state needs have been read by this instance too."""
+        lists, _, _, _, waiting = saved["reload"]
+        named = None if waiting in (None, *REFUSED) else self.name_of(waiting, lists)
+        return lists in self.known and (named is None or named in self.known)
+
+    @staticmethod
+    def name_of(file: str, lists: Name) -> Name:
+        return (file, lists) if file == "sizes.bin" else file
+
+    def watch(self, *, path_set: bool) -> None:
+        if not self.reload:
+            self.waiting = None
+        elif not self.seen and (self.waiting is None or path_set):
+            self.waiting = self.path or "tables.bin"
+            if self.waiting not in REFUSED:
+                self.known.add(self.name_of(self.waiting, self.lists))
+
+    def take(self) -> str:
+        """Take or refuse the lists that wait; return which of the two it was, and whether an axis has kept its own."""
+        waiting, self.waiting, self.seen = self.waiting, None, self.reload
+        if waiting is None:
+            return "nothing"
+        if waiting in REFUSED:
+            for state, outputs in zip(self.runtime.state.axis, self.runtime.outputs.axis, strict=True):
+                state.error = outputs.error = ERROR_UPDATE
+            return "refused"
+        self.lists = self.name_of(waiting, self.lists)
+        return "kept" if self.runtime.update(IMAGES[waiting]) else "taken"
 
 
 class Walk:
@@ -67,7 +142,8 @@ class Walk:
     def __init__(self, seed: int) -> None:
         self.source = random.Random(seed)
         self.instances = [Expected(MACHINE) for _ in range(INSTANCES)]
-        self.states: list[tuple[Any, ...] | None] = [None] * STATES
+        self.states: list[tuple[dict[str, Any], float] | None] = [None] * STATES
+        self.happened: set[str] = set()
         self.times = [0.0] * INSTANCES
         self.script: list[str] = []
         self.expected: list[tuple[int, list[str] | None]] = []
@@ -85,6 +161,9 @@ class Walk:
             (self.through_bytes, 2),
             (self.spoilt_bytes, 2),
             (self.cycle_time, 3),
+            (self.set_reload, 3),
+            (self.set_path, 3),
+            (self.update, 8),
             (self.nulls, 1),
             (self.make_again, 2),
         ]
@@ -111,7 +190,9 @@ class Walk:
         if self.instances[slot].phase != "none":
             self.say(f"free {slot}", OK)
         self.say(f"instantiate {slot} name{slot} 1 {GUID} . 1 0", 1)
-        self.instances[slot].reset()
+        self.instances[slot].made()
+        if self.source.random() < 0.5:
+            self.cycle_time(slot, self.instances[slot])
 
     def make_again(self, slot: int, it: Expected) -> None:
         if self.source.random() < 0.5:
@@ -150,6 +231,7 @@ class Walk:
         if call == "reset":
             self.say(f"reset {slot}", OK if it.phase != "none" else ERROR)
             if it.phase != "none":
+                self.happened |= {"reset while lists wait"} if it.waiting else set()
                 it.reset()
                 self.times[slot] = 0.0
         elif call == "setup":
@@ -171,6 +253,7 @@ class Walk:
         self.say(f"step {slot} {bits(self.times[slot])} {bits(size)}", OK if legal else ERROR)
         if legal:
             self.times[slot] += size
+            self.happened.add(it.take())
             it.runtime.advance(self.times[slot])
 
     def wrong_step(self, slot: int, _: Expected) -> None:
@@ -203,6 +286,36 @@ class Walk:
         self.say(f"set {slot} r {CYCLE_TIME} {bits(value)}", OK if legal else ERROR)
         if legal:
             it.runtime.tables.cycle_time = value
+
+    def set_reload(self, slot: int, it: Expected, value: bool | None = None) -> None:
+        """Set the input that reads lists; ``value``: None: either."""
+        legal = it.phase in ("instantiated", "init", "step")
+        value = self.source.random() < 0.6 if value is None else value
+        self.say(f"set {slot} b {RELOAD} {int(value)}", OK if legal else ERROR)
+        if legal:
+            it.reload = value
+            it.watch(path_set=False)
+
+    def set_path(self, slot: int, it: Expected) -> None:
+        legal = it.phase in ("instantiated", "init", "step")
+        path = self.source.choice([*IMAGES, *REFUSED])
+        self.say(f"set {slot} s {UPDATE_PATH} {path}", OK if legal else ERROR)
+        if legal:
+            it.path = path
+            it.watch(path_set=True)
+
+    def update(self, slot: int, it: Expected) -> None:
+        """Read other lists, perhaps do something in between, and step with them."""
+        self.set_reload(slot, it, False)
+        self.step(slot, it)
+        self.set_path(slot, it)
+        self.set_reload(slot, it, True)
+        self.source.choice([self.step, self.step, self.change_phase, self.save, self.restore])(slot, it)
+        for _ in range(2):
+            if it.phase != "step":
+                self.proceed(slot, it)
+        self.step(slot, it)
+        self.get_all(slot, it)
 
     def get_one(self, slot: int, it: Expected) -> None:
         self._get(slot, it, [(self.source.randrange(AXES), self.source.choice(OUTPUTS))])
@@ -256,24 +369,27 @@ class Walk:
         state = self.source.randrange(STATES)
         self.say(f"save {slot} {state + 8}", OK if it.phase != "none" else ERROR)
         if it.phase != "none":
-            self.states[state] = (*it.save(), self.times[slot])
+            self.states[state] = (it.save(), self.times[slot])
 
     def restore(self, slot: int, it: Expected) -> None:
         """Into any instance, whichever it was saved from, and whether that one is still there."""
         state = self.source.randrange(STATES)
         saved = self.states[state]
-        legal = it.phase != "none" and saved is not None
+        legal = it.phase != "none" and saved is not None and it.has_lists_of(saved[0])
         self.say(f"restore {slot} {state + 8}", OK if legal else ERROR)
         if legal and saved is not None:
-            it.restore(saved[:2])
-            self.times[slot] = saved[2]
+            it.restore(saved[0])
+            self.times[slot] = saved[1]
+        elif it.phase != "none" and saved is not None:
+            self.happened.add("a state of other lists")
 
     def through_bytes(self, slot: int, it: Expected) -> None:
         """Serialize a state and read it again."""
         state = self.source.randrange(STATES)
-        if it.phase != "none" and self.states[state] is not None:
+        saved = self.states[state]
+        if it.phase != "none" and saved is not None:
             self.say(f"serialize {slot} {state + 8} 0", OK)
-            self.say(f"deserialize {slot} {state + 8} 0 -1", OK)
+            self.say(f"deserialize {slot} {state + 8} 0 -1", OK if it.has_lists_of(saved[0]) else ERROR)
 
     def spoilt_bytes(self, slot: int, it: Expected) -> None:
         state = self.source.randrange(STATES)
@@ -299,7 +415,8 @@ def check(walk: Walk, answers: list[Answer]) -> None:
 
 @pytest.fixture
 def resources(tmp_path: Path) -> Path:
-    (tmp_path / "tables.bin").write_bytes(image_of(compile_tables(MACHINE), GUID))
+    for name, machine in IMAGES.items():
+        (tmp_path / name).write_bytes(image_of(compile_tables(machine), GUID))
     return tmp_path
 
 
@@ -345,3 +462,11 @@ def test_the_walk_visits_every_phase_and_both_outcomes() -> None:
         "deserialize",
     ):
         assert {(call, OK), (call, ERROR)} <= calls, call
+    assert walk.happened == {
+        "nothing",
+        "taken",
+        "kept",
+        "refused",
+        "reset while lists wait",
+        "a state of other lists",
+    }
