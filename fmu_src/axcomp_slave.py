@@ -16,6 +16,25 @@ from axcomp.kinds.parameter import Severity
 
 STATUS = {Severity.ERROR: Fmi2Status.error, Severity.WARNING: Fmi2Status.warning, Severity.INFO: Fmi2Status.ok}
 CATEGORY = {Severity.ERROR: "logStatusError", Severity.WARNING: "logStatusWarning", Severity.INFO: "logAll"}
+TYPES = ("Real", "Integer", "Boolean", "String")
+
+
+def _getter(kind: str) -> Any:
+    """Make the method that returns variables of one type by value reference."""
+
+    def get(self: AxcompSlave, vrs: list[int]) -> list[Any]:
+        return self._instance.get(kind, vrs)
+
+    return get
+
+
+def _setter(kind: str) -> Any:
+    """Make the method that sets variables of one type by value reference."""
+
+    def set_(self: AxcompSlave, vrs: list[int], values: list[Any]) -> None:
+        self._instance.set(kind, vrs, values)
+
+    return set_
 
 
 class AxcompSlave(Fmi2Slave):
@@ -45,37 +64,8 @@ class AxcompSlave(Fmi2Slave):
         self._instance.do_step(current_time, step_size)
         return True
 
-    def get_real(self, vrs: list[int]) -> list[float]:
-        """Return Real variables by value reference."""
-        return self._instance.get("Real", vrs)
-
-    def get_integer(self, vrs: list[int]) -> list[int]:
-        """Return Integer variables by value reference."""
-        return self._instance.get("Integer", vrs)
-
-    def get_boolean(self, vrs: list[int]) -> list[bool]:
-        """Return Boolean variables by value reference."""
-        return self._instance.get("Boolean", vrs)
-
-    def get_string(self, vrs: list[int]) -> list[str]:
-        """Return String variables by value reference."""
-        return self._instance.get("String", vrs)
-
-    def set_real(self, vrs: list[int], values: list[float]) -> None:
-        """Set Real variables by value reference."""
-        self._instance.set("Real", vrs, values)
-
-    def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        """Set Integer variables by value reference."""
-        self._instance.set("Integer", vrs, values)
-
-    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
-        """Set Boolean variables by value reference."""
-        self._instance.set("Boolean", vrs, values)
-
-    def set_string(self, vrs: list[int], values: list[str]) -> None:
-        """Set String variables by value reference."""
-        self._instance.set("String", vrs, values)
+    get_real, get_integer, get_boolean, get_string = map(_getter, TYPES)
+    set_real, set_integer, set_boolean, set_string = map(_setter, TYPES)
 
     def _get_fmu_state(self) -> bytes:
         return self._instance.save()

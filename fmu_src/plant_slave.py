@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+from copy import copy
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,8 @@ from axcomp.plant.machine import FILE_NAME, Plant
 LARGEST = 1e12
 """Inputs beyond are not used, as if they were infinite."""
 
+REMEMBERED = ("values", "setpoints", "currents", "commanded", "tool_length")
+"""What a state holds besides that of the plant."""
 
 NOTHING = {"sub_step": 1.0, "axes": []}
 """Description of the plant that stands in for one that cannot be read."""
@@ -72,14 +75,7 @@ class PlantSlave(Fmi2Slave):
             self._tell_unknown(vrs)
 
     def _get_fmu_state(self) -> dict[str, Any]:
-        return {
-            "plant": self.plant.state,
-            "values": list(self.values),
-            "setpoints": list(self.setpoints),
-            "currents": list(self.currents),
-            "commanded": list(self.commanded),
-            "tool_length": self.tool_length,
-        }
+        return {"plant": self.plant.state, **{name: copy(getattr(self, name)) for name in REMEMBERED}}
 
     def _set_fmu_state(self, state: dict[str, Any]) -> None:
         self._guard(self._restore, state)
@@ -88,11 +84,8 @@ class PlantSlave(Fmi2Slave):
         if len(state["values"]) != len(self.values):
             raise ValueError("the state belongs to another machine")
         self.plant.state = state["plant"]
-        self.values = list(state["values"])
-        self.setpoints = list(state["setpoints"])
-        self.currents = list(state["currents"])
-        self.commanded = list(state["commanded"])
-        self.tool_length = state["tool_length"]
+        for name in REMEMBERED:
+            setattr(self, name, copy(state[name]))
 
     def _begin(self) -> None:
         self._take_inputs()

@@ -17,7 +17,10 @@ def three_axes(scale: float = 1.0) -> Machine:
         "X",
         backlash_cycles=4,
         leadscrew=Leadscrew((-100.0, -20.0, 30.0, 100.0), screw, (0.02, 0.01, 0.0, -0.01)),
-        friction=Friction((0.5, 5.0, 50.0), (100.0, 60.0, 80.0), position_delay=0.001, reversal_lookahead=2),
+        # the delay line is the look-ahead: nothing has to be predicted, and there is nothing to say
+        friction=Friction(
+            (0.5, 5.0, 50.0), (100.0, 60.0, 80.0), position_delay=0.001, reversal_lookahead=2, delay_cycles=2
+        ),
     )
     y = Axis(
         2,

@@ -24,14 +24,34 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert (page.parent / target).exists(), target
 
 
-def test_every_convention_has_a_test_that_exists() -> None:
+def test_every_convention_has_a_reason_a_trace_and_a_test_that_exists() -> None:
     page = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
     rows = [row for row in page.splitlines() if row.startswith("| ") and not row.startswith("| Convention")]
     assert len(rows) > 40
+    assert sum("| — |" not in row for row in rows) > 50
     for row in rows:
+        assert all(cell.strip() for cell in row.strip("|").split(" | "))
+        assert row.count(" | ") == 3, row
         (reference,) = re.findall(r"`([\w/]+\.py)::(\w+)`", row)
         file, name = reference
         assert f"def {name}(" in (ROOT / "tests" / file).read_text(encoding="utf-8"), row
+
+
+def test_the_glossary_says_each_word_once_in_order_and_its_classes_exist() -> None:
+    page = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
+    sections = [re.findall(r"^\| (?!Word )([^|-][^|]*) \|", part, re.MULTILINE) for part in page.split("\n## ")[1:]]
+    words = [word for section in sections for word in section]
+    assert len(words) > 60
+    assert sorted(set(words)) == sorted(words)
+    for section in sections:
+        assert section == sorted(section, key=str.lower)
+    classes = re.findall(r"\| `(\w+)\.(\w+)` \|", page)
+    assert len(classes) > 35
+    for room, name in classes:
+        files = (ROOT / "axcomp" / room).rglob("*.py")
+        assert any(
+            re.search(rf"^(class {name}\b|{name} = )", path.read_text("utf-8"), re.MULTILINE) for path in files
+        ), name
 
 
 def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
@@ -49,7 +69,7 @@ def test_no_file_names_a_registry_or_a_place_on_this_machine() -> None:
 def test_the_commands_on_the_pages_are_understood() -> None:
     lines = [line for page in PAGES for line in re.findall(r"^ {4}axcomp (.+)", page.read_text("utf-8"), re.MULTILINE)]
     shown = {line.split()[0] for line in lines}
-    assert shown >= {"show", "check", "measure", "create", "convert", "budget", "report", "sweep", "run"}
+    assert shown >= {"show", "check", "measure", "create", "convert", "budget", "report", "sweep", "run", "replay"}
     for line in lines:
         parser = argparse.ArgumentParser(exit_on_error=False)
         subparsers = parser.add_subparsers(required=True)
@@ -74,6 +94,18 @@ def test_the_sweep_and_the_program_on_the_page_run(
     Path("program.csv").write_text(program.replace(" " * 4, ""), encoding="utf-8")
     assert main(["run", "program.csv", "--machine", "models/three_axis", "--output", "result.csv"]) == 0
     assert "3 cycles" in capsys.readouterr().out
+
+
+def test_the_trace_on_the_page_differs_as_it_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "workbench.md").read_text(encoding="utf-8")
+    (trace, said) = re.findall(r"```csv\n(.*?)```\n\n```text\n(.*?)```", page, re.DOTALL)[0]
+    command = re.findall(r"^ {4}axcomp (replay .+)", page, re.MULTILINE)[0]
+    Path("trace.csv").write_text(trace, encoding="utf-8")
+    assert main(shlex.split(command)) == 1
+    assert capsys.readouterr().out.endswith(said)
 
 
 @pytest.mark.slow

@@ -12,16 +12,9 @@ from dataclasses import dataclass
 class Sample:
     """Repeated measurements of one cost.
 
-    Attributes
-    ----------
-    name : str
-        What was measured.
-    unit : str
-        ``µs`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``×`` for ratios.
-    values : tuple of float
-        The measurements.
-    goal : float or None
-        What it may cost at most, in the same unit; of a ratio: what it must be at least. None: no figure is set.
+    ``unit``: ``µs`` or ``ns`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``×`` for
+    ratios. ``goal``: what it may cost at most, in the same unit; of a ratio: what it must be at least; None: no figure
+    is set.
     """
 
     name: str
@@ -46,13 +39,7 @@ class Sample:
 
 
 def sample(
-    name: str,
-    unit: str,
-    work: Callable[[], object],
-    *,
-    repeats: int = 7,
-    each: int = 1,
-    goal: float | None = None,
+    name: str, unit: str, work: Callable[[], object], *, repeats: int = 7, each: int = 1, goal: float | None = None
 ) -> Sample:
     """Run ``work`` a few times after a warm-up; ``each`` is the number of cycles that one call runs."""
     scale = {"s": 1.0, "ms": 1e3, "µs": 1e6}[unit] / each

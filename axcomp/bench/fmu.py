@@ -25,12 +25,7 @@ STEPS = 2000
 
 
 def bench_fmu(
-    path: str | os.PathLike[str],
-    name: str,
-    repeats: int,
-    *,
-    goal: float | None = None,
-    start_goal: float | None = None,
+    path: str | os.PathLike[str], name: str, repeats: int, *, goal: float | None = None, start_goal: float | None = None
 ) -> tuple[Sample, Sample]:
     """Measure an FMU in a child process: the steps in µs, and loading it up to the end of initialization in ms."""
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:

@@ -11,12 +11,8 @@ from ..model.machine import AXES_MAX, Axis, Machine
 def machine_of(axes: int, points: int) -> Machine:
     """Return a machine of translatory axes ``A0`` … whose curves have ``points`` points and whose planes about as many.
 
-    Parameters
-    ----------
-    axes : int
-        2 … 32; the masters of an axis are its neighbours.
-    points : int
-        Of each curve, at least 4; a plane has ⌊√points⌋ in either direction.
+    There are 2 … 32 ``axes``; the masters of an axis are its neighbours. ``points`` are at least 4; a plane has
+    ⌊√points⌋ in either direction.
     """
     return Machine(tuple(_axis(index, axes, points, math.isqrt(points)) for index in range(axes)))
 

@@ -107,15 +107,8 @@ def _of_type(variables: Iterable[Variable], kind: type) -> list[Variable]:
 def bench_native_host(repeats: int) -> Iterator[Sample]:
     """Measure the example machines in the C host, and how a cycle grows with the axes and with the points.
 
-    Parameters
-    ----------
-    repeats : int
-        Batches of 2000 cycles are measured ten times as often.
-
-    Raises
-    ------
-    CompilerError
-        If there is no C compiler, or it fails.
+    Batches of 2000 cycles are measured ten times as often as ``repeats``. CompilerError if there is no C compiler, or
+    it fails.
     """
     batches = 10 * repeats
     with tempfile.TemporaryDirectory() as folder:

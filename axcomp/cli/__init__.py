@@ -25,6 +25,7 @@ COMMANDS = {
     "sweep": "run many variations of a machine",
     "budget": "what each compensation and each error contributes along a path",
     "report": "write everything about a machine on one page",
+    "replay": "compare a trace of a controller with the engine",
     "diagnose": "write all records of the volumetric compensations",
 }
 """What each command does, for the help; each is a module with ``add_subparser(subparsers)``.
@@ -38,6 +39,7 @@ EXTRA = {
     "create": ("rich",),
     "show": ("rich",),
     "diagnose": ("openpyxl",),
+    "replay": ("rich",),
 }
 """Packages of the extra ``workbench`` without which a command does nothing."""
 

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
-import numpy as np
-
-from ..analysis.budget.contributions import POINTS, Budget, budget_of
+from ..analysis.budget.contributions import POINTS, Budget, budget_of, largest, rms
 from ..analysis.budget.propagation import COVERAGE, PLACES, TRIALS, TcpUncertainty, tcp_uncertainty
 from ..analysis.budget.uncertainty import read_uncertainties
 from ..engine.trajectory import read_input
-from ..lists import Severity, read_machine
-from ..model.companions import machine_path
 from ..model.machine import CYCLE_TIME
+from .lists import add_lists_command, failed, read_lists
 
 ROWS = 15
 
@@ -43,15 +39,8 @@ examples:
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the sub-command."""
-    parser = subparsers.add_parser(
-        "budget",
-        description="Show how many µm each compensation and each volumetric error contributes along a path.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument(
-        "path", type=machine_path, metavar="PATH", help="start-up list, folder, or one compensation list"
-    )
+    description = "Show how many µm each compensation and each volumetric error contributes along a path."
+    parser = add_lists_command(subparsers, "budget", description, _EPILOG, _do_budget)
     parser.add_argument("--input", type=Path, required=True, metavar="FILE", help="the path: inputs as CSV")
     parser.add_argument("--uncertainty", type=Path, metavar="FILE", help="how well errors are known, as CSV")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="waterfalls, and the uncertainty")
@@ -63,36 +52,27 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the random numbers (%(default)s)")
     parser.add_argument("--rows", type=int, default=ROWS, metavar="N", help="of a table (%(default)s); 0: all")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
-    parser.set_defaults(do=_do_budget)
 
 
 def _do_budget(args: argparse.Namespace) -> int:
-    reading = read_machine(args.path)
-    machine = reading.machine
-    for finding in reading.findings:
-        if finding.severity is Severity.ERROR:
-            print(finding, file=sys.stderr)
-    fault = "" if machine.axes else f"{args.path}: there is no axis in these lists"
+    machine = read_lists(args.path).machine
     if args.points < 2 or args.cycle_time <= 0.0 or args.trials < 2 or args.places < 1 or args.seed < 0:
-        fault = "--points and --trials are at least 2, --places 1, --seed 0, and --cycle-time is above 0"
+        sentence = "--points and --trials are at least 2, --places 1, --seed 0, and --cycle-time is above 0"
+        return failed("budget", sentence)
+    if not machine.axes:
+        return failed("budget", f"{args.path}: there is no axis in these lists")
     uncertainty: TcpUncertainty | None = None
-    if not fault:
-        try:
-            uncertainties = read_uncertainties(args.uncertainty, machine) if args.uncertainty else ()
-            path = read_input(args.input)
-            budget = budget_of(
-                machine, path, points=args.points, cycle_time=args.cycle_time, tool_length=args.tool_length
-            )
-            if uncertainties:
-                options = {"trials": args.trials, "places": args.places, "seed": args.seed}
-                uncertainty = tcp_uncertainty(budget, uncertainties, **options)
-        except KeyError as error:
-            fault = f"{args.input}: {error.args[0]}"
-        except ValueError as error:
-            fault = str(error)
-    if fault:
-        print(f"axcomp budget: {fault}", file=sys.stderr)
-        return 1
+    try:
+        uncertainties = read_uncertainties(args.uncertainty, machine) if args.uncertainty else ()
+        path = read_input(args.input)
+        budget = budget_of(machine, path, points=args.points, cycle_time=args.cycle_time, tool_length=args.tool_length)
+        if uncertainties:
+            options = {"trials": args.trials, "places": args.places, "seed": args.seed}
+            uncertainty = tcp_uncertainty(budget, uncertainties, **options)
+    except KeyError as error:
+        return failed("budget", f"{args.input}: {error.args[0]}")
+    except ValueError as error:
+        return failed("budget", str(error))
     if args.plot is not None:
         from ..analysis.budget.picture import budget_figure
         from ..plot.style import save
@@ -109,41 +89,36 @@ def _do_budget(args: argparse.Namespace) -> int:
 def _print(budget: Budget, uncertainty: TcpUncertainty | None, rows: int) -> None:
     from ..plot.terminal import console, figure, table
 
+    def cells(*values: float) -> list[str]:
+        return [figure(value, 3) for value in values]
+
     out = console()
     for axis, total in budget.totals.items():
         every = budget.of_axis(axis)
         if not every:
             continue
-        worst = budget.worst(axis)
+        worst, unit = budget.worst(axis), budget.units[axis]
         listed = every[: rows or len(every)]
-        lines = [[c.source, figure(c.max, 3), figure(c.rms, 3), figure(c.at(worst), 3)] for c in listed]
+        lines = [[c.source, *cells(c.max, c.rms, c.at(worst))] for c in listed]
         if len(every) > len(listed):
             rest = sum(c.at(worst) for c in every[len(listed) :])
-            lines.append([f"{len(every) - len(listed)} others", "", "", figure(rest, 3)])
-        rms = float(np.sqrt(np.mean(total**2)))
-        lines.append(["all, by the engine", *(figure(v, 3) for v in (np.max(np.abs(total)), rms, total[worst]))])
+            lines.append([f"{len(every) - len(listed)} others", "", "", *cells(rest)])
+        lines.append(["all, by the engine", *cells(largest(total), rms(total), total[worst])])
         head = ["contribution", "largest", "rms", f"at {budget.time[worst]:.3f} s"]
-        out.print(table(f"Axis {axis}: corrections in {budget.units[axis]}", head, lines))
-        unit = budget.units[axis]
-        if axis in budget.volumetric_sum:
+        out.print(table(f"Axis {axis}: corrections in {unit}", head, lines))
+        if axis in budget.joint:
             joint = f"{budget.gap_to_joint(axis):.2g} {unit}"
             out.print(f"Volumetric errors, sum of each alone − all together: at most {joint}")
         out.print(f"Sum of all contributions − engine: at most {budget.gap_to_engine(axis):.2g} {unit}\n")
     if budget.currents:
-        lines = [[axis, figure(largest, 3), figure(rms, 3)] for axis, (largest, rms) in budget.currents.items()]
+        lines = [[axis, *cells(largest(one), rms(one))] for axis, one in budget.currents.items()]
         out.print(table("Friction: currents in the drive's own unit", ["axis", "largest", "rms"], lines))
     if uncertainty is not None:
-        _print_uncertainty(uncertainty)
-
-
-def _print_uncertainty(uncertainty: TcpUncertainty) -> None:
-    from ..plot.terminal import console, figure, table
-
-    head = ["largest along the path", *uncertainty.axes]
-    lines = [[label, *(figure(v, 3) for v in values.max(axis=0))] for label, values in uncertainty.sources.items()]
-    lines.sort(key=lambda line: -max(map(float, line[1:])))
-    lines.append(["all, by linear propagation", *(figure(v, 3) for v in uncertainty.linear.max(axis=0))])
-    lines.append([f"all, by {uncertainty.trials} trials", *(figure(v, 3) for v in uncertainty.standard.max(axis=0))])
-    out = console()
-    out.print(table("Tool tip: standard uncertainties in µm", head, lines))
-    out.print(f"{COVERAGE:.0%} of all trials are within {uncertainty.radius.max():.3f} µm everywhere on the path.\n")
+        lines = [[label, *cells(*values.max(axis=0))] for label, values in uncertainty.sources.items()]
+        lines.sort(key=lambda line: -max(map(float, line[1:])))
+        lines.append(["all, by linear propagation", *cells(*uncertainty.linear.max(axis=0))])
+        lines.append([f"all, by {uncertainty.trials} trials", *cells(*uncertainty.standard.max(axis=0))])
+        head = ["largest along the path", *uncertainty.axes]
+        out.print(table("Tool tip: standard uncertainties in µm", head, lines))
+        radius = f"{uncertainty.radius.max():.3f} µm"
+        out.print(f"{COVERAGE:.0%} of all trials are within {radius} everywhere on the path.\n")

@@ -16,6 +16,7 @@ from ..model.companions import machine_path, models
 from ..model.machine import CYCLE_TIME
 from ..native.compiler import PLATFORMS
 from ..plant.fmu import package_plant
+from .axis_type import add_axis_type
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -80,6 +81,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         action="store_true",
         help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
     )
+    add_axis_type(parser)
     parser.set_defaults(do=_do_build)
 
 
@@ -117,14 +119,26 @@ def _do_build(args: argparse.Namespace) -> int:
 
 def _build(args: argparse.Namespace, lists: Path) -> Built:
     if args.image is not None:
-        return write_image(lists, args.image, cycle_time=args.cycle_time)
+        return write_image(lists, args.image, cycle_time=args.cycle_time, axis_type=args.axis_type)
     output = args.output or Path.cwd()
     if args.runtime == "native":
-        return package_native(lists, output, cycle_time=args.cycle_time, naming=args.naming, platforms=args.platforms)
+        return package_native(
+            lists,
+            output,
+            cycle_time=args.cycle_time,
+            naming=args.naming,
+            platforms=args.platforms,
+            axis_type=args.axis_type,
+        )
     if args.platforms:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
     return package_axcomp(
-        lists, output, cycle_time=args.cycle_time, naming=args.naming, external_tool=not args.no_external_tool
+        lists,
+        output,
+        cycle_time=args.cycle_time,
+        naming=args.naming,
+        external_tool=not args.no_external_tool,
+        axis_type=args.axis_type,
     )
 
 

@@ -11,7 +11,8 @@ from typing import Any
 from ..analysis.judgement import Judgement
 from ..lists import Reading, Severity, read_machine
 from ..model.companions import machine_path
-from .judgement_options import add_judgement_options, evidence_of, judgement_of
+from .axis_type import add_axis_type
+from .judgement_options import add_judgement_options, evidence_of
 
 STATUS_MAX = 100
 """Largest exit status: larger ones are not the program's to use."""
@@ -46,13 +47,14 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     )
     parser.add_argument("--format", choices=("text", "json"), default="text", help="what to print (default: text)")
     add_judgement_options(parser)
+    add_axis_type(parser)
     parser.set_defaults(do=_do_check)
 
 
 def _do_check(options: argparse.Namespace) -> int:
-    reading = read_machine(options.path)
+    reading = read_machine(options.path, axis_type=options.axis_type)
     evidence = evidence_of(options, reading.machine)
-    judgement = judgement_of(options, reading, evidence)
+    judgement = evidence.judge(reading)
     reading = replace(reading, findings=(*reading.findings, *judgement.findings))
     counts = {severity: sum(f.severity is severity for f in reading.findings) for severity in Severity}
     if options.format == "json":

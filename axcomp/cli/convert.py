@@ -9,14 +9,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..convert.formats import FORMATS, LISTS, Compared, Options, compared, recognized, shown_unit, written
+from ..convert.formats import FORMATS, LISTS, Compared, compared, recognized, written
 from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
-from ..convert.table import CannotHoldError, CompensationTable, FormatError
+from ..convert.table import CompensationTable
+from ..convert.text import MAX_POINTS, CannotHoldError, FormatError, Options
 from ..kinds import KINDS
-from ..lists import Severity, machine_documents, read_machine, write_machine
+from ..lists import machine_documents, read_machine, write_machine
 from ..lists.grammar import decode
-from ..model.companions import machine_path
-from ..model.machine import Machine
+from .lists import add_lists_command, failed, read_lists
 
 _NAMES = (LISTS, *FORMATS)
 
@@ -37,14 +37,9 @@ examples:
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the sub-command."""
-    parser = subparsers.add_parser(
-        "convert",
-        description="Convert leadscrew and cross compensation tables to and from other controllers.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument(
-        "path", type=machine_path, metavar="PATH", help="lists of a machine, or a file of another controller"
+    description = "Convert leadscrew and cross compensation tables to and from other controllers."
+    parser = add_lists_command(
+        subparsers, "convert", description, _EPILOG, _do_convert, "lists of a machine, or a file of another controller"
     )
     parser.add_argument("--to", required=True, choices=_NAMES, metavar="FORMAT", help="one of the formats below")
     parser.add_argument("--from", dest="source", choices=_NAMES, metavar="FORMAT", help="default: by the content")
@@ -56,13 +51,14 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--within", type=float, metavar="µm", help="choose other points; they may cost this much (rotary: ″)"
     )
-    parser.add_argument("--max-points", type=int, metavar="N", help="points the other control reserves for a table")
+    parser.add_argument(
+        "--max-points", type=int, default=MAX_POINTS, metavar="N", help="points the other control reserves for a table"
+    )
     parser.add_argument("--encoder", type=int, choices=(0, 1), default=0, help="measuring system of ENC_COMP (0)")
     parser.add_argument("--from-inch", action="store_true", help="the file is in inches (SINUMERIK, LinuxCNC)")
     parser.add_argument("--to-inch", action="store_true", help="write inches (SINUMERIK, LinuxCNC)")
     parser.add_argument("--machine", type=Path, metavar="PATH", help="machine whose lists get the tables (--to lists)")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="of the report; default: text")
-    parser.set_defaults(do=_do_convert)
 
 
 def _do_convert(args: argparse.Namespace) -> int:
@@ -78,8 +74,7 @@ def _do_convert(args: argparse.Namespace) -> int:
         print(f"{args.path}:{error.line}: error: {error.message}", file=sys.stderr)
         return 1
     except (CannotHoldError, ValueError) as error:
-        print(f"axcomp convert: {error}", file=sys.stderr)
-        return 1
+        return failed("convert", str(error))
     # The converted file has standard output for itself where it goes there.
     report = sys.stderr if text and args.output is None else sys.stdout
     if report is sys.stderr:
@@ -97,23 +92,23 @@ def _do_convert(args: argparse.Namespace) -> int:
 def _options(args: argparse.Namespace) -> Options:
     if args.within is not None and not args.within >= 0.0:
         raise CannotHoldError("--within must be 0 µm or more")
-    if args.max_points is not None and args.max_points < 2:
+    if args.max_points < 2:
         raise CannotHoldError("--max-points must be 2 or more")
-    options = Options(
+    return Options(
         axis=args.axis,
         over=args.over,
         rotary=frozenset(name for name in args.rotary.split(",") if name),
         encoder=args.encoder,
+        max_points=args.max_points,
         within=args.within,
     )
-    return options if args.max_points is None else replace(options, max_points=args.max_points)
 
 
 def _read(args: argparse.Namespace) -> tuple[list[CompensationTable], list[str]]:
     """Return the tables that are asked for, and what the target does not take over."""
     source = args.source or (LISTS if args.path.is_dir() or args.path.suffix.lower() == ".lis" else None)
     if source == LISTS:
-        machine = _machine(args.path)
+        machine = read_lists(args.path).machine
         tables = tables_of(machine, args.axis, args.kind)
         return tables, dropped(machine, tables) if args.to != LISTS else []
     text = decode(args.path.read_bytes())
@@ -129,28 +124,17 @@ def _read(args: argparse.Namespace) -> tuple[list[CompensationTable], list[str]]
     return chosen, []
 
 
-def _machine(path: Path) -> Machine:
-    reading = read_machine(path)
-    for finding in reading.findings:
-        if finding.severity is Severity.ERROR:
-            print(finding, file=sys.stderr)
-    return reading.machine
-
-
 def _write_lists(tables: Sequence[CompensationTable], args: argparse.Namespace) -> list[Compared]:
     """Write a machine's lists once what they say is found to be right."""
     if args.output is None:
         raise CannotHoldError("lists are several files: give a folder for them with --output")
-    machine = machine_with(tables, None if args.machine is None else _machine(args.machine))
+    machine = machine_with(tables, None if args.machine is None else read_lists(args.machine).machine)
     back = read_machine(args.output, documents=machine_documents(machine, args.output)).machine
-    after = [table for kind in CONVERTED for table in _all_of(back, kind)]
+    held = [(axis.name, kind) for kind in CONVERTED for axis in back.axes if getattr(axis, kind)]
+    after = [table for axis, kind in held for table in tables_of(back, axis, kind)]
     result = compared(tables, after, args.within)
     write_machine(machine, args.output)
     return result
-
-
-def _all_of(machine: Machine, kind: str) -> list[CompensationTable]:
-    return [table for axis in machine.axes if getattr(axis, kind) for table in tables_of(machine, axis.name, kind)]
 
 
 def _sentence(one: Compared) -> str:
@@ -158,7 +142,7 @@ def _sentence(one: Compared) -> str:
     points = f"{len(one.before.positions)} points, written {len(one.after.positions)}"
     motion = "positive" if direction > 0 else "negative"
     where = f" at {position:g} {one.before.over_unit} in {motion} motion" if size else ""
-    return f"{one.before.name}: {points}; largest difference {size:.4f} {shown_unit(one.before)}{where}"
+    return f"{one.before.name}: {points}; largest difference {size:.4f} {one.before.shown.unit}{where}"
 
 
 def _figures(one: Compared) -> dict[str, object]:
@@ -169,7 +153,7 @@ def _figures(one: Compared) -> dict[str, object]:
         "points": len(one.before.positions),
         "written_points": len(one.after.positions),
         "largest_difference": one.difference.size,
-        "unit": shown_unit(one.before),
+        "unit": one.before.shown.unit,
         "at": one.difference.position,
         "direction": one.difference.direction,
     }

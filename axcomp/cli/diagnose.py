@@ -10,8 +10,8 @@ from ..analysis.diagnosis.files import Written, write_diagnoses
 from ..analysis.diagnosis.records import volumetric_lists
 from ..fmu.archive import BuildError
 from ..lists import Severity, read_machine
-from ..model.companions import machine_path
 from ..model.volumetric import COMPENSATIONS_MAX
+from .lists import add_lists_command, failed
 
 _EPILOG = """\
 A workbook has a sheet with the settings of the volumetric list and what was found in it, then a sheet for each
@@ -29,32 +29,28 @@ examples:
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the sub-command."""
-    parser = subparsers.add_parser(
-        "diagnose",
-        description="Write the diagnosis files of volumetric compensations: spreadsheets of all records, sorted.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    description = "Write the diagnosis files of volumetric compensations: spreadsheets of all records, sorted."
+    parser = add_lists_command(
+        subparsers, "diagnose", description, _EPILOG, _do_diagnose, "a start-up list, or a folder with one"
     )
-    parser.add_argument("path", type=machine_path, metavar="PATH", help="a start-up list, or a folder with one")
     parser.add_argument("--output", type=Path, metavar="FILE", help="default: what the list names")
     parser.add_argument("--id", type=int, choices=range(COMPENSATIONS_MAX), help="only this compensation; default: all")
-    parser.set_defaults(do=_do_diagnose)
 
 
 def _do_diagnose(args: argparse.Namespace) -> int:
     reading = read_machine(args.path)
     found, faults = volumetric_lists(reading)
-    status = max([0, *map(_fail, faults)])
+    status = max([0, *(failed("diagnose", fault) for fault in faults)])
     sources = [source for source in found if args.id in (None, source.index)]
     if not sources:
         which = "volumetric list" if args.id is None else f"volumetric list with ID {args.id}"
-        return _fail(f"there is no {which} to be read in {args.path}.")
+        return failed("diagnose", f"there is no {which} to be read in {args.path}.")
     taken = sources if args.output is not None else [source for source in sources if source.diagnosis_file]
     if not taken:
         names = ", ".join(source.path.name for source in sources)
-        return _fail(f"{names}: no diagnosis_file is named; --output FILE says where to write.")
+        return failed("diagnose", f"{names}: no diagnosis_file is named; --output FILE says where to write.")
     for result in write_diagnoses(taken, reading, args.output):
-        status = max(status, _fail(str(result)) if isinstance(result, BuildError) else _tell(result))
+        status = max(status, failed("diagnose", str(result)) if isinstance(result, BuildError) else _tell(result))
     return status
 
 
@@ -69,8 +65,3 @@ def _tell(written: Written) -> int:
     count = sum(len(file.records) for file in diagnosis.files)
     print(f"{written.path}: {count} records of {', '.join(file.path.name for file in diagnosis.files) or 'no file'}")
     return int(any(not file.was_read for file in diagnosis.files))
-
-
-def _fail(sentence: str) -> int:
-    print(f"axcomp diagnose: {sentence}", file=sys.stderr)
-    return 1

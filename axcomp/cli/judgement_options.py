@@ -5,17 +5,14 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..analysis.judgement.judging import Judgement, judge
-from ..lists import Reading
+from ..analysis.judgement import Evidence
 from ..model.machine import CYCLE_TIME, Machine
 
 if TYPE_CHECKING:
     from ..analysis.judgement import Demand
-    from ..engine.trajectory import InputFile
     from ..measurement.positioning import Positioning
 
 SPEEDS = {"mm/min": 1 / 60, "m/min": 1e3 / 60, "mm/s": 1.0, "m/s": 1e3}
@@ -25,29 +22,6 @@ ACCELERATIONS = {"mm/s2": 1.0, "m/s2": 1e3, "deg/s2": 1.0, "°/s2": 1.0}
 """Units of accelerations, in mm/s² or °/s²."""
 
 _QUANTITY = re.compile(r"(?:([^=]+)=)?\s*(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)\s*(\D.*)?\Z")
-
-
-@dataclass(frozen=True)
-class Evidence:
-    """What there is beside the lists to judge them by.
-
-    Attributes
-    ----------
-    measurements : tuple of (Positioning, str, str)
-        With the axis that deviates and the one that was moved; only those whose table there is.
-    readings : tuple of Positioning
-        All measurements that could be read.
-    demand : Demand or None
-    input : InputFile or None
-    faults : tuple of str
-        A sentence for each option that cannot be followed.
-    """
-
-    measurements: tuple[tuple[Positioning, str, str], ...] = ()
-    readings: tuple[Positioning, ...] = ()
-    demand: Demand | None = None
-    input: InputFile | None = None
-    faults: tuple[str, ...] = ()
 
 
 def add_judgement_options(parser: argparse.ArgumentParser) -> None:
@@ -82,7 +56,7 @@ def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
     given = None
     try:
         if options.input is not None:
-            from ..analysis.judgement.trajectory import setpoints
+            from ..analysis.judgement.coverage import setpoints
             from ..engine.trajectory import read_input
 
             found = read_input(options.input)
@@ -90,7 +64,7 @@ def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
             given = found
     except ValueError as error:
         faults.append(str(error))
-    return Evidence(tuple(measurements), tuple(readings), demand, given, tuple(faults))
+    return Evidence(tuple(measurements), tuple(readings), demand, given, options.tool_length, tuple(faults))
 
 
 def _measurements(
@@ -113,18 +87,6 @@ def _measurements(
         except (MeasurementError, ValueError) as error:
             faults.append(str(error))
     return measurements, readings
-
-
-def judgement_of(options: argparse.Namespace, reading: Reading, evidence: Evidence) -> Judgement:
-    """Judge the machine by all there is."""
-    return judge(
-        reading.machine,
-        reading,
-        measurements=evidence.measurements,
-        demand=evidence.demand,
-        trajectory=None if evidence.input is None else evidence.input.columns,
-        tool_length=options.tool_length,
-    )
 
 
 def _only_axis(machine: Machine, file: str) -> str:

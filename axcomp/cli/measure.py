@@ -6,11 +6,13 @@ import argparse
 import json
 import math
 import sys
+from dataclasses import fields
 from pathlib import Path
 
 from ..measurement.columns import MeasurementError
 from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
-from ..measurement.positioning import Positioning, joined, read_positioning
+from ..measurement.positioning import Positioning, read_positioning
+from ..measurement.readings import joined
 from ..measurement.uncertainty import Conditions
 from ..model.quantity import symbol
 from .check import STATUS_MAX
@@ -24,16 +26,6 @@ examples:
   axcomp measure x.csv --plot x.png --device 0.5 --drift 0.8
   axcomp measure x_before.csv x_after.csv --format json
 """
-
-_CONDITIONS = {
-    "device": ("µm/m", "expanded uncertainty (k = 2) of the instrument"),
-    "misalignment": ("mm", "how far instrument and axis may be out of line over the travel"),
-    "temperature-range": ("K", "range within which the machine's temperature is known"),
-    "temperature-offset": ("K", "machine's temperature minus 20 °C"),
-    "expansion": ("1e-6/K", "expansion coefficient of the machine's scale"),
-    "expansion-range": ("1e-6/K", "range within which that is known"),
-    "drift": ("µm", "environmental variation error E_VE: range of readings at rest"),
-}
 
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -49,8 +41,9 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draw means, ±2s bands and readings")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
     conditions = parser.add_argument_group("conditions of the test, for expanded uncertainties (k = 2); linear axes")
-    for name, (unit, meaning) in _CONDITIONS.items():
-        conditions.add_argument(f"--{name}", type=float, metavar=unit, help=meaning)
+    for one in fields(Conditions):
+        name, about = f"--{one.name.replace('_', '-')}", one.metadata
+        conditions.add_argument(name, type=float, metavar=about["unit"], help=about["meaning"])
     parser.set_defaults(do=_do_measure)
 
 
@@ -88,8 +81,7 @@ def _do_measure(args: argparse.Namespace) -> int:
 
 def _conditions(args: argparse.Namespace) -> Conditions | None:
     """Return the conditions that were given, None if none was."""
-    names = [name.replace("-", "_") for name in _CONDITIONS]
-    given = {name: getattr(args, name) for name in names if getattr(args, name) is not None}
+    given = {one.name: getattr(args, one.name) for one in fields(Conditions) if getattr(args, one.name) is not None}
     return Conditions(**given) if given else None
 
 
@@ -97,9 +89,8 @@ def _plot(results: list[Iso230Result], file: Path) -> None:
     from matplotlib.figure import Figure  # takes long to load
 
     drawing = Figure(figsize=(10.0, 5.6 * len(results)), dpi=120, layout="constrained")
-    for place, result in enumerate(results, 1):
-        ax = drawing.add_subplot(len(results), 1, place)
-        result.plot(ax)
+    for number, result in enumerate(results, 1):
+        ax = result.plot(drawing.add_subplot(len(results), 1, number))
         if len(results) > 1:
             ax.set_title(f"{Path(result.source).name}\n{ax.get_title()}", fontsize=12)
     drawing.savefig(file)

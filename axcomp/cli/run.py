@@ -18,6 +18,7 @@ from ..engine.nc_scanner import NcError
 from ..lists import read_machine
 from ..model.companions import machine_path, models
 from ..model.machine import CYCLE_TIME
+from .axis_type import add_axis_type
 
 TIME = "time"
 _ON_TIME = 1e-6
@@ -68,6 +69,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--naming", choices=("structured", "flat"), default="structured", help="X.setpoint (default) or X_setpoint"
     )
+    add_axis_type(parser)
     parser.set_defaults(do=_do_run)
 
 
@@ -77,7 +79,7 @@ def _do_run(args: argparse.Namespace) -> int:
     if program.spacing is not None and abs(program.spacing - cycle_time) > _ON_TIME * cycle_time:
         raise ValueError(f"{args.program}: the rows are {program.spacing:g} s apart, the cycles {cycle_time:g} s")
     lists = args.machine or models() / "three_axis"
-    engine = Engine(lists, cycle_time, args.naming)
+    engine = Engine(lists, cycle_time, args.naming, args.axis_type)
     engine.runtime.start_time = program.start
 
     def write_diagnosis(index: int | None = None) -> Iterator[str]:

@@ -7,18 +7,17 @@ import csv
 import json
 import sys
 from collections.abc import Sequence
+from dataclasses import asdict, astuple
 from pathlib import Path
 
 from ..kinds import KINDS
-from ..lists import Severity, read_machine
-from ..model.companions import machine_path
-from ..plot.content import Content, NotComparableError, Records
+from ..plot.content import VOLUMETRIC, Content, NotComparableError, Records
 from ..plot.contents import contents_of
 from ..plot.page import overview, page, shown
 from ..plot.style import save
-from ..plot.volume import volumetric_contents
+from .axis_type import add_axis_type
+from .lists import add_lists_command, failed, read_lists
 
-VOLUMETRIC = "volumetric"
 ROWS = 12
 HEAD_MAX = 110
 """Characters of the names of all columns that one line has room for."""
@@ -37,15 +36,8 @@ examples:
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the sub-command."""
-    parser = subparsers.add_parser(
-        "show",
-        description="Show the compensation tables of a machine, or the difference of two machines.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument(
-        "path", type=machine_path, metavar="PATH", help="start-up list, folder, or one compensation list"
-    )
+    description = "Show the compensation tables of a machine, or the difference of two machines."
+    parser = add_lists_command(subparsers, "show", description, _EPILOG, _do_show)
     parser.add_argument("--axis", help="only the tables of this axis")
     parser.add_argument("--kind", choices=(*KINDS, VOLUMETRIC), help="only this kind")
     parser.add_argument("--output", type=Path, metavar="FILE", help="FILE.png, FILE.html or FILE.csv")
@@ -53,29 +45,27 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--tool-length", type=float, default=0.0, metavar="mm", help="for the TCP error (0)")
     parser.add_argument("--rows", type=int, default=ROWS, metavar="N", help=f"rows of a printed table ({ROWS}); 0: all")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="of what is printed; default: text")
-    parser.set_defaults(do=_do_show)
+    add_axis_type(parser)
 
 
 def _do_show(args: argparse.Namespace) -> int:
     if args.output is not None and args.output.suffix.lower() not in _WRITERS:
-        print(f"axcomp show: {args.output} must end in {', '.join(_WRITERS)}", file=sys.stderr)
-        return 1
+        return failed("show", f"{args.output} must end in {', '.join(_WRITERS)}")
     contents, known = _contents(args.path, args)
     notes: list[str] = []
     if args.against is not None:
         others, other_known = _contents(args.against, args)
         if not other_known:
-            print(f"axcomp show: there is no axis in {args.against}", file=sys.stderr)
-            return 1
+            return failed("show", f"there is no axis in {args.against}")
         known |= other_known
         contents, notes = _differences(contents, others)
     if not contents:
-        print(f"axcomp show: {_nothing(args, known, notes)}", file=sys.stderr)
-        return 1
+        return failed("show", _nothing(args, known, notes))
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
     if args.output is not None:
-        for path in _WRITERS[args.output.suffix.lower()](contents, args.output, _title(args), notes):
+        title = f"{args.against} minus {args.path}" if args.against else f"Compensations of {args.path}"
+        for path in _WRITERS[args.output.suffix.lower()](contents, args.output, title, notes):
             print(path)
     elif args.format == "json":
         print(json.dumps([_figures(content) for content in contents], ensure_ascii=False))
@@ -86,15 +76,8 @@ def _do_show(args: argparse.Namespace) -> int:
 
 def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
     """Return what is asked for, and the names of the machine's axes."""
-    reading = read_machine(path)
-    machine = reading.machine
-    for finding in reading.findings:
-        if finding.severity is Severity.ERROR:
-            print(finding, file=sys.stderr)
-    contents = [] if args.kind == VOLUMETRIC else contents_of(machine, args.axis, args.kind)
-    if args.kind in {None, VOLUMETRIC}:
-        contents += volumetric_contents(machine, args.axis, args.tool_length)
-    return contents, {axis.name for axis in machine.axes}
+    machine = read_lists(path, args.axis_type).machine
+    return contents_of(machine, args.axis, args.kind, args.tool_length), {axis.name for axis in machine.axes}
 
 
 def _differences(mine: Sequence[Content], theirs: Sequence[Content]) -> tuple[list[Content], list[str]]:
@@ -123,16 +106,12 @@ def _nothing(args: argparse.Namespace, known: set[str], notes: Sequence[str]) ->
     return f"no {asked}{of_axis} is in force in {args.path}{' and ' + str(args.against) if args.against else ''}{said}"
 
 
-def _title(args: argparse.Namespace) -> str:
-    return f"{args.against} minus {args.path}" if args.against else f"Compensations of {args.path}"
-
-
 def _write_pictures(contents: Sequence[Content], path: Path, _title: str, _notes: Sequence[str]) -> list[Path]:
     paths = [path]
     if len(contents) > 1:
         paths = [path.with_name(f"{path.stem}-{_in_file_name(one.subject.name)}{path.suffix}") for one in contents]
-    for content, place in zip(contents, paths, strict=True):
-        save(content.figure(), place)
+    for content, file in zip(contents, paths, strict=True):
+        save(content.figure(), file)
     return paths
 
 
@@ -153,10 +132,9 @@ def _write_csv(contents: Sequence[Content], path: Path, _title: str, _notes: Seq
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["axis", "kind", "part", *columns])
         for content, records in zip(contents, all_records, strict=True):
-            subject = content.subject
             for row in records.rows:
                 cells = dict(zip(records.columns, row, strict=True))
-                writer.writerow([subject.axis, subject.kind, subject.part, *(cells.get(name, "") for name in columns)])
+                writer.writerow([*astuple(content.subject), *(cells.get(name, "") for name in columns)])
     return [path]
 
 
@@ -164,21 +142,21 @@ _WRITERS = {".png": _write_pictures, ".html": _write_page, ".csv": _write_csv}
 
 
 def _figures(content: Content) -> dict[str, object]:
-    subject, records = content.subject, content.records()
-    head: dict[str, object] = {"axis": subject.axis, "kind": subject.kind, "part": subject.part}
-    return {**head, "columns": records.columns, "rows": records.rows}
+    return {**asdict(content.subject), **content.records()._asdict()}
 
 
 def _print(contents: Sequence[Content], rows: int) -> None:
     from ..plot.terminal import console, table
 
     out = console()
+
+    def show(title: str, records: Records) -> None:
+        out.print(table(title, _head(records), [[shown(cell) for cell in row] for row in records.rows]))
+
     if len(contents) > 1:
-        summary = overview(contents)
-        out.print(table("", summary.columns, [[shown(cell) for cell in row] for row in summary.rows]))
+        show("", overview(contents))
     for content in contents:
-        extract = content.extract(rows)
-        out.print(table(content.subject.title, _head(extract), [[shown(c) for c in row] for row in extract.rows]))
+        show(content.subject.title, content.extract(rows))
 
 
 def _head(records: Records) -> list[str]:

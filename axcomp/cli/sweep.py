@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .check import STATUS_MAX
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 ROWS_SHOWN = 12
 ERRORS_SHOWN = 5
@@ -84,16 +90,10 @@ def _do_sweep(args: argparse.Namespace) -> int:
     job, findings = job_of(spec)
     for finding in findings:
         print(finding, file=sys.stderr)
-    with _Bar() as bar:
+    with _progress() as show:
         try:
             sweep = run_sweep(
-                spec,
-                job,
-                args.output,
-                scheduler=args.scheduler,
-                workers=args.workers,
-                retry=args.retry,
-                progress=bar.show,
+                spec, job, args.output, scheduler=args.scheduler, workers=args.workers, retry=args.retry, progress=show
             )
         except KeyboardInterrupt:
             print("axcomp sweep: stopped; the same command goes on from here", file=sys.stderr)
@@ -131,13 +131,12 @@ def _fault(args: argparse.Namespace) -> str:
     return ""
 
 
-def _print(output: Path, table: object, taken_over: int) -> None:
+def _print(output: Path, table: pd.DataFrame, taken_over: int) -> None:
     import pandas as pd
 
     from ..plot import terminal
     from ..sweep.spec import ERROR, FINDINGS
 
-    assert isinstance(table, pd.DataFrame)
     # Texts have no room in a table.
     shown = table.drop(columns=[FINDINGS, ERROR]).head(ROWS_SHOWN)
     rows = [
@@ -151,31 +150,14 @@ def _print(output: Path, table: object, taken_over: int) -> None:
     )
 
 
-class _Bar:
-    """A progress bar on standard error."""
+@contextmanager
+def _progress() -> Iterator[Callable[[int, int], None]]:
+    """Keep a progress bar on standard error; it takes how many runs are done, and of how many."""
+    from rich import progress as rich
+    from rich.console import Console
 
-    def __init__(self) -> None:
-        from rich.console import Console
-        from rich.progress import (
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TextColumn,
-            TimeElapsedColumn,
-            TimeRemainingColumn,
-        )
-
-        columns = (TextColumn("runs"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
-        self._progress = Progress(*columns, console=Console(stderr=True))
-        self._task = self._progress.add_task("runs", total=None)
-
-    def show(self, done: int, of: int) -> None:
-        """Show how far it has come."""
-        self._progress.update(self._task, completed=done, total=of)
-
-    def __enter__(self) -> _Bar:
-        self._progress.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._progress.stop()
+    columns = [rich.TextColumn("runs"), rich.BarColumn(), rich.MofNCompleteColumn()]
+    columns += [rich.TimeElapsedColumn(), rich.TimeRemainingColumn()]
+    with rich.Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("runs", total=None)
+        yield lambda done, of: bar.update(task, completed=done, total=of)

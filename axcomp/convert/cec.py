@@ -1,6 +1,6 @@
 """SINUMERIK CEC: sag and angularity compensation, one axis corrected over another or over itself.
 
-``$AN_CEC[t,N]`` is the value at point N of table t, ``$AN_CEC_STEP/MIN/MAX[t]`` place the points as in ENC_COMP,
+``$AN_CEC[t,N]`` is the value at point N of table t, ``$AN_CEC_STEP/MIN/MAX[t]`` set the points as in ENC_COMP,
 ``…_INPUT_AXIS`` names the axis looked up, ``…_OUTPUT_AXIS`` the corrected one, ``…_DIRECTION`` says whether the table
 acts in both directions (0) or only in positive (1) or negative (−1) motion of the input axis, ``…_IS_MODULO`` repeats
 it. Tables of one pair of axes add up; two with directions 1 and −1 and the same axis twice are a bilateral leadscrew
@@ -19,15 +19,14 @@ Source: Siemens 6FC5397-1BP40-3BA1 (03/2013), K3, 4.4.3 and 4.4.4, pages 244 to 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from .numbers import decimal, scale
-from .resample import on_equidistant_points
-from .sinumerik import MAX_POINTS, Setting, index_of_last_point, program, settings, values_of
-from .table import CompensationTable, FormatError, Unit
+from .sinumerik import GRID, Written, blocks, program, settings
+from .table import CompensationTable, on_equidistant_points
+from .text import DEFAULTS, FormatError, Options
 
 _PREFIX = "$AN_CEC"
 _PARAMETERS = ("STEP", "MIN", "MAX", "INPUT_AXIS", "OUTPUT_AXIS", "DIRECTION", "FACTOR", "MULT_BY_TABLE", "IS_MODULO")
@@ -35,23 +34,7 @@ _SETTING_DATA = ("TABLE_WEIGHT", "TABLE_ENABLE")
 _KNOWN = {f"{_PREFIX}_{name}": name for name in _PARAMETERS} | {f"$SN_CEC_{name}": name for name in _SETTING_DATA}
 
 
-@dataclass
-class _Written:
-    """What a file says of one table."""
-
-    line: int
-    points: dict[int, float] = field(default_factory=dict)
-    parameters: dict[str, Setting] = field(default_factory=dict)
-
-    def number(self, name: str, default: float) -> float:
-        return self.parameters[name].number() if name in self.parameters else default
-
-    def flag(self, name: str, default: bool) -> bool:
-        return self.parameters[name].flag() if name in self.parameters else default
-
-
-@dataclass(frozen=True)
-class _Part:
+class _Part(NamedTuple):
     """One table of the file: a curve that acts in some directions, and what it belongs to."""
 
     line: int
@@ -59,31 +42,20 @@ class _Part:
     directions: tuple[int, ...]
 
 
-def read_cec(text: str, *, inch: bool = False, rotary: Collection[str] = ()) -> list[CompensationTable]:
-    """Return the tables of a file, one for each pair of axes.
-
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    inch : bool
-        The basic system of the control is inch.
-    rotary : collection of str
-        Names of the rotary axes: the files do not tell them. The input axis of a modulo table is one anyway.
+def read_cec(text: str, options: Options = DEFAULTS) -> list[CompensationTable]:
+    """Return a table for each pair of axes; the input axis of a modulo table is a rotary one.
 
     Raises
     ------
     FormatError
-        If the file is not of this format, or holds products of tables, with the line.
+        Also if the file holds products of tables.
     """
-    tables: dict[int, _Written] = {}
+    tables: dict[int, Written] = {}
     for setting in settings(text):
         if setting.variable != _PREFIX and setting.variable not in _KNOWN:
             raise FormatError(setting.line, f"{setting.variable} is no variable of a sag compensation")
-        written = tables.setdefault(setting.whole_index(0), _Written(setting.line))
-        wanted = 2 if setting.variable == _PREFIX else 1
-        if len(setting.indices) != wanted:
-            raise FormatError(setting.line, f"{setting.variable} has {wanted} indices, not {len(setting.indices)}")
+        written = tables.setdefault(setting.whole_index(0), Written(setting.line))
+        setting.check_indices(2 if setting.variable == _PREFIX else 1)
         if setting.variable == _PREFIX:
             written.points[setting.whole_index(1)] = setting.number()
         else:
@@ -93,46 +65,24 @@ def read_cec(text: str, *, inch: bool = False, rotary: Collection[str] = ()) -> 
     pairs: dict[tuple[str, str], list[_Part]] = {}
     for number, written in sorted(tables.items()):
         if written.flag("TABLE_ENABLE", True):
-            part = _part(number, written, inch, rotary)
+            part = _part(f"table {number}", written, options)
             pairs.setdefault((part.curve.axis, part.curve.over), []).append(part)
     return [_sum(parts) for parts in pairs.values()]
 
 
-def _part(number: int, written: _Written, inch: bool, rotary: Collection[str]) -> _Part:
-    name = f"table {number}"
-    for needed in ("STEP", "MIN", "MAX", "INPUT_AXIS", "OUTPUT_AXIS"):
-        if needed not in written.parameters:
-            raise FormatError(written.line, f"{name} has no {_PREFIX}_{needed}")
+def _part(name: str, written: Written, options: Options) -> _Part:
+    written.check_has(name, _PREFIX, (*GRID, "INPUT_AXIS", "OUTPUT_AXIS"))
     if written.number("MULT_BY_TABLE", 0.0) != 0.0:
         line = written.parameters["MULT_BY_TABLE"].line
         raise FormatError(line, f"{name} is multiplied by another one: no table over one axis holds the product")
     direction = written.number("DIRECTION", 0.0)
     if direction not in {-1.0, 0.0, 1.0}:
         raise FormatError(written.parameters["DIRECTION"].line, f"{_PREFIX}_DIRECTION must be −1, 0 or 1")
-    step, low, high = (written.parameters[needed].number() for needed in ("STEP", "MIN", "MAX"))
     over, axis = (written.parameters[needed].axis() for needed in ("INPUT_AXIS", "OUTPUT_AXIS"))
-    modulo = written.flag("IS_MODULO", False)
-    line = written.parameters["MAX"].line
-    last = index_of_last_point(low, high, step, line, name)
-    values = values_of(written.points, last, written.line, name)
-    if modulo and last == 0:
-        raise FormatError(line, f"{name} repeats but has no length")
-    over_unit: Unit = "deg" if modulo or over in rotary else "mm"
-    unit: Unit = over_unit if axis == over else "deg" if axis in rotary else "mm"
-    weight = written.number("FACTOR", 1.0) * written.number("TABLE_WEIGHT", 1.0) * scale(unit, inch)
-    factor = scale(over_unit, inch)
-    try:
-        curve = CompensationTable.of(
-            axis,
-            over,
-            tuple((low + index * step) * factor for index in range(last + 1)),
-            tuple(value * weight for value in values),
-            period=last * step * factor if modulo else None,
-            unit=unit,
-            over_unit=over_unit,
-        )
-    except ValueError as error:
-        raise FormatError(line, str(error)) from None
+    over_unit = "deg" if written.flag("IS_MODULO", False) else options.unit(over)
+    unit = over_unit if axis == over else options.unit(axis)
+    weight = written.number("FACTOR", 1.0) * written.number("TABLE_WEIGHT", 1.0)
+    curve = written.table(name, (axis, over), (unit, over_unit), weight, options)
     return _Part(written.line, curve, {0.0: (1, -1), 1.0: (1,), -1.0: (-1,)}[direction])
 
 
@@ -158,57 +108,22 @@ def _same_rhythm(one: CompensationTable, other: CompensationTable) -> bool:
     return math.isclose(one.period, other.period) and one.positions[0] == other.positions[0]
 
 
-def write_cec(
-    tables: Sequence[CompensationTable],
-    *,
-    inch: bool = False,
-    max_points: int = MAX_POINTS,
-    within: float | None = None,
-) -> str:
-    """Return the file with several tables; a bilateral one becomes two, one for each direction.
-
-    Parameters
-    ----------
-    tables : sequence of CompensationTable
-        Any.
-    inch : bool
-        The basic system of the control is inch.
-    max_points : int
-        What MD18342 of the control reserves for each table.
-    within : float or None
-        µm (″) that equidistant points may cost; None: they must be equidistant.
-
-    Raises
-    ------
-    CannotHoldError
-        For what equidistant points cannot hold.
-    """
+def write_cec(tables: Sequence[CompensationTable], options: Options = DEFAULTS) -> str:
+    """Return the file with any tables; a bilateral one becomes two, one for each direction."""
     lines: list[str] = []
     number = 0
     for table in tables:
-        even = on_equidistant_points(table, max_points, within)
+        even = on_equidistant_points(table, options.max_points, options.within)
         for direction in (0,) if even.negative is None else (1, -1):
-            lines += _blocks(even, number, direction, inch)
+            values = even.curve(direction or 1).y
+            lines += [
+                f"; {table.axis} over {table.over}: {len(values)} points, MD18342 MM_CEC_MAX_POINTS[{number}] must "
+                "hold them",
+                *blocks(_PREFIX, [number], [], even, values, options),
+                f"{_PREFIX}_INPUT_AXIS[{number}]=({table.over})",
+                f"{_PREFIX}_OUTPUT_AXIS[{number}]=({table.axis})",
+                f"{_PREFIX}_DIRECTION[{number}]={direction}",
+                f"{_PREFIX}_MULT_BY_TABLE[{number}]=0",
+            ]
             number += 1
     return program("NC_CEC", lines)
-
-
-def _blocks(table: CompensationTable, number: int, direction: int, inch: bool) -> list[str]:
-    factor, over_factor = scale(table.unit, inch), scale(table.over_unit, inch)
-    last = len(table.positions) - 1
-    low, high = table.positions[0] / over_factor, table.positions[-1] / over_factor
-    return [
-        f"; {table.axis} over {table.over}: {last + 1} points, MD18342 MM_CEC_MAX_POINTS[{number}] must hold them",
-        *(
-            f"{_PREFIX}[{number},{index}]={decimal(value / factor)}"
-            for index, value in enumerate(table.curve(direction or 1).y)
-        ),
-        f"{_PREFIX}_INPUT_AXIS[{number}]=({table.over})",
-        f"{_PREFIX}_OUTPUT_AXIS[{number}]=({table.axis})",
-        f"{_PREFIX}_STEP[{number}]={decimal((high - low) / last)}",
-        f"{_PREFIX}_MIN[{number}]={decimal(low)}",
-        f"{_PREFIX}_MAX[{number}]={decimal(high)}",
-        f"{_PREFIX}_DIRECTION[{number}]={direction}",
-        f"{_PREFIX}_MULT_BY_TABLE[{number}]=0",
-        f"{_PREFIX}_IS_MODULO[{number}]={int(table.period is not None)}",
-    ]

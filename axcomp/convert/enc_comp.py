@@ -15,126 +15,49 @@ Source: Siemens 6FC5397-1BP40-3BA1 (03/2013), K3, 4.4.2.1 to 4.4.2.3, pages 238 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 
-from .numbers import decimal, scale
-from .resample import on_equidistant_points
-from .sinumerik import MAX_POINTS, Setting, index_of_last_point, program, settings, values_of
-from .table import CannotHoldError, CompensationTable, FormatError, Unit
+from .sinumerik import GRID, Written, blocks, program, settings
+from .table import CompensationTable, on_equidistant_points
+from .text import DEFAULTS, CannotHoldError, FormatError, Options
 
 _PREFIX = "$AA_ENC_COMP"
 
 
-@dataclass
-class _Written:
-    """What a file says of one axis."""
-
-    line: int
-    points: dict[int, float] = field(default_factory=dict)
-    parameters: dict[str, Setting] = field(default_factory=dict)
-
-
-def read_enc_comp(
-    text: str, *, encoder: int = 0, inch: bool = False, rotary: Collection[str] = ()
-) -> list[CompensationTable]:
-    """Return the tables of a file, one for each axis.
-
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    encoder : int
-        0 or 1: the measuring system whose tables are read.
-    inch : bool
-        The basic system of the control is inch.
-    rotary : collection of str
-        Names of the rotary axes: the files do not tell them. An axis with a modulo table is one anyway.
-
-    Raises
-    ------
-    FormatError
-        If the file is not of this format, with the line.
-    """
-    axes: dict[str, _Written] = {}
+def read_enc_comp(text: str, options: Options = DEFAULTS) -> list[CompensationTable]:
+    """Return the tables of the measuring system ``options.encoder``; an axis with a modulo table is a rotary one."""
+    axes: dict[str, Written] = {}
     others: set[int] = set()
     for setting in settings(text):
         if not setting.variable.startswith(_PREFIX):
             raise FormatError(setting.line, f"{setting.variable} is no variable of a leadscrew compensation")
-        if setting.whole_index(0, 1) != encoder:
+        if setting.whole_index(0, 1) != options.encoder:
             others.add(setting.whole_index(0, 1))
             continue
-        place = 2 if setting.variable == _PREFIX else 1
-        axis = axes.setdefault(setting.axis_index(place), _Written(setting.line))
-        if len(setting.indices) != place + 1:
-            raise FormatError(setting.line, f"{setting.variable} has {place + 1} indices, not {len(setting.indices)}")
-        if place == 2:
+        is_point = setting.variable == _PREFIX
+        axis = axes.setdefault(setting.axis_index(2 if is_point else 1), Written(setting.line))
+        setting.check_indices(3 if is_point else 2)
+        name = setting.variable.removeprefix(f"{_PREFIX}_")
+        if is_point:
             axis.points[setting.whole_index(1)] = setting.number()
-        elif setting.variable in {f"{_PREFIX}_{name}" for name in ("STEP", "MIN", "MAX", "IS_MODULO")}:
-            axis.parameters[setting.variable.removeprefix(f"{_PREFIX}_")] = setting
+        elif name in {*GRID, "IS_MODULO"}:
+            axis.parameters[name] = setting
         else:
             raise FormatError(setting.line, f"{setting.variable} is no variable of a leadscrew compensation")
     if not axes:
         found = f"; it has one for encoder {min(others)}" if others else ""
-        raise FormatError(0, f"the file has no table for encoder {encoder}{found}")
-    return [_table(name, written, inch, name in rotary) for name, written in axes.items()]
+        raise FormatError(0, f"the file has no table for encoder {options.encoder}{found}")
+    return [_table(name, written, options) for name, written in axes.items()]
 
 
-def _table(name: str, written: _Written, inch: bool, rotary: bool) -> CompensationTable:
-    for needed in ("STEP", "MIN", "MAX"):
-        if needed not in written.parameters:
-            raise FormatError(written.line, f"axis {name} has no {_PREFIX}_{needed}")
-    step, low, high = (written.parameters[name].number() for name in ("STEP", "MIN", "MAX"))
-    modulo = "IS_MODULO" in written.parameters and written.parameters["IS_MODULO"].flag()
-    line = written.parameters["MAX"].line
-    last = index_of_last_point(low, high, step, line, f"the table of {name}")
-    values = values_of(written.points, last, written.line, f"the table of {name}")
-    unit: Unit = "deg" if rotary or modulo else "mm"
-    factor = scale(unit, inch)
-    if modulo and last == 0:
-        raise FormatError(line, f"the table of {name} repeats but has no length")
-    try:
-        return CompensationTable.of(
-            name,
-            name,
-            tuple((low + index * step) * factor for index in range(last + 1)),
-            tuple(-value * factor for value in values),
-            period=last * step * factor if modulo else None,
-            unit=unit,
-            over_unit=unit,
-        )
-    except ValueError as error:
-        raise FormatError(line, str(error)) from None
+def _table(name: str, written: Written, options: Options) -> CompensationTable:
+    written.check_has(f"axis {name}", _PREFIX, GRID)
+    unit = "deg" if written.flag("IS_MODULO", False) else options.unit(name)
+    return written.table(f"the table of {name}", (name, name), (unit, unit), -1.0, options)
 
 
-def write_enc_comp(
-    tables: Sequence[CompensationTable],
-    *,
-    encoder: int = 0,
-    inch: bool = False,
-    max_points: int = MAX_POINTS,
-    within: float | None = None,
-) -> str:
-    """Return the file with the tables of several axes.
-
-    Parameters
-    ----------
-    tables : sequence of CompensationTable
-        Unilateral leadscrew tables.
-    encoder : int
-        0 or 1: the measuring system they are for.
-    inch : bool
-        The basic system of the control is inch.
-    max_points : int
-        What MD38000 of the control reserves.
-    within : float or None
-        µm (″) that equidistant points may cost; None: they must be equidistant.
-
-    Raises
-    ------
-    CannotHoldError
-        For a cross or bilateral table, and for what equidistant points cannot hold.
-    """
+def write_enc_comp(tables: Sequence[CompensationTable], options: Options = DEFAULTS) -> str:
+    """Return the file with unilateral leadscrew tables, for the measuring system ``options.encoder``."""
     lines: list[str] = []
     for table in tables:
         if table.kind == "cross":
@@ -145,23 +68,8 @@ def write_enc_comp(
             raise CannotHoldError(
                 f"{table.name} is bilateral: ENC_COMP has one curve for both directions (CEC has two)"
             )
-        lines += _blocks(on_equidistant_points(table, max_points, within), encoder, inch)
+        even = on_equidistant_points(table, options.max_points, options.within)
+        errors = [-value for value in even.positive.y]
+        count = f"; {table.axis}: {len(errors)} points, MD38000 MM_ENC_COMP_MAX_POINTS must hold them"
+        lines += [count, *blocks(_PREFIX, [options.encoder], [table.axis], even, errors, options)]
     return program("AX_EEC", lines)
-
-
-def _blocks(table: CompensationTable, encoder: int, inch: bool) -> list[str]:
-    factor = scale(table.unit, inch)
-    last = len(table.positions) - 1
-    low, high = table.positions[0] / factor, table.positions[-1] / factor
-    step = (high - low) / last
-    return [
-        f"; {table.axis}: {last + 1} points, MD38000 MM_ENC_COMP_MAX_POINTS must hold them",
-        *(
-            f"{_PREFIX}[{encoder},{index},{table.axis}]={decimal(-value / factor)}"
-            for index, value in enumerate(table.positive.y)
-        ),
-        f"{_PREFIX}_STEP[{encoder},{table.axis}]={decimal(step)}",
-        f"{_PREFIX}_MIN[{encoder},{table.axis}]={decimal(low)}",
-        f"{_PREFIX}_MAX[{encoder},{table.axis}]={decimal(high)}",
-        f"{_PREFIX}_IS_MODULO[{encoder},{table.axis}]={int(table.period is not None)}",
-    ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -12,8 +12,8 @@ from .enc_comp import read_enc_comp, write_enc_comp
 from .heidenhain import read_heidenhain, write_heidenhain, write_itnc
 from .linuxcnc import read_linuxcnc, write_linuxcnc
 from .plain_csv import read_csv, write_csv
-from .sinumerik import MAX_POINTS
-from .table import CannotHoldError, CompensationTable, Difference, FormatError, largest_difference
+from .table import CompensationTable, Difference, largest_difference
+from .text import CannotHoldError, Options
 
 LISTS = "lists"
 """The controller's own lists, which are read and written as a whole machine."""
@@ -21,40 +21,12 @@ WITHIN = 0.5e-4
 """mm or ° that a conversion may change a correction unless told otherwise: half of what the lists resolve."""
 
 
-@dataclass(frozen=True)
-class Options:
-    """What a file does not tell of itself.
+class Format(NamedTuple):
+    """A format: its name on the command line, what it is, and its reader and writer.
 
-    Attributes
-    ----------
-    axis : str or None
-        The corrected axis, where the format names none.
-    over : str or None
-        The axis looked up, where the format names none.
-    rotary : frozenset of str
-        Names of the rotary axes.
-    inch : bool
-        Lengths are in inches.
-    encoder : int
-        Measuring system of ENC_COMP, 0 or 1.
-    max_points : int
-        Points the other control reserves for a table.
-    within : float or None
-        µm (″) that another choice of points may cost; None: the points stay as they are.
+    A reader returns the tables of a text, FormatError if it is not of the format; a writer returns the text of some
+    tables, CannotHoldError for those it has no room for.
     """
-
-    axis: str | None = None
-    over: str | None = None
-    rotary: frozenset[str] = field(default_factory=frozenset)
-    inch: bool = False
-    encoder: int = 0
-    max_points: int = MAX_POINTS
-    within: float | None = None
-
-
-@dataclass(frozen=True)
-class Format:
-    """A format: its name on the command line, what it is, and its reader and writer."""
 
     name: str
     summary: str
@@ -62,75 +34,33 @@ class Format:
     write: Callable[[Sequence[CompensationTable], Options], str]
 
 
-def _read_linuxcnc(text: str, options: Options, comp_type: int) -> list[CompensationTable]:
-    if options.axis is None:
-        raise FormatError(0, "a LinuxCNC file does not tell its axis: give it with --axis")
-    rotary = options.axis in options.rotary
-    return [read_linuxcnc(text, comp_type=comp_type, axis=options.axis, inch=options.inch, rotary=rotary)]
-
-
-def _write_linuxcnc(tables: Sequence[CompensationTable], options: Options, comp_type: int) -> str:
-    if len(tables) != 1:
-        names = ", ".join(table.name for table in tables)
-        raise CannotHoldError(f"a LinuxCNC file holds one table; there are {len(tables)}: {names}")
-    return write_linuxcnc(tables[0], comp_type=comp_type, inch=options.inch)
-
-
-def _metric(write: Callable[[Sequence[CompensationTable], Options], str]) -> Callable[..., str]:
-    def checked(tables: Sequence[CompensationTable], options: Options) -> str:
-        if options.inch:
-            raise CannotHoldError("this format is written in mm only")
-        return write(tables, options)
-
-    return checked
-
-
-FORMATS = {
-    one.name: one
-    for one in (
+_ALL = (
+    Format("enc-comp", "SINUMERIK $AA_ENC_COMP: leadscrew, equidistant, unilateral", read_enc_comp, write_enc_comp),
+    Format("cec", "SINUMERIK $AN_CEC: leadscrew (also bilateral) and cross, equidistant", read_cec, write_cec),
+    Format(
+        "heidenhain",
+        "Heidenhain .COM of TNC 6xx and later: leadscrew and cross",
+        read_heidenhain,
+        write_heidenhain,
+    ),
+    Format(
+        "itnc",
+        "Heidenhain .COM of TNC 4xx and iTNC 530: one table, equidistant, unilateral",
+        read_heidenhain,
+        write_itnc,
+    ),
+    *(
         Format(
-            "enc-comp",
-            "SINUMERIK $AA_ENC_COMP: leadscrew, equidistant, unilateral",
-            lambda text, o: read_enc_comp(text, encoder=o.encoder, inch=o.inch, rotary=o.rotary),
-            lambda tables, o: write_enc_comp(
-                tables, encoder=o.encoder, inch=o.inch, max_points=o.max_points, within=o.within
-            ),
-        ),
-        Format(
-            "cec",
-            "SINUMERIK $AN_CEC: leadscrew (also bilateral) and cross, equidistant",
-            lambda text, o: read_cec(text, inch=o.inch, rotary=o.rotary),
-            lambda tables, o: write_cec(tables, inch=o.inch, max_points=o.max_points, within=o.within),
-        ),
-        Format(
-            "heidenhain",
-            "Heidenhain .COM of TNC 6xx and later: leadscrew and cross",
-            lambda text, o: read_heidenhain(text, over=o.over, rotary=o.rotary),
-            _metric(lambda tables, _: write_heidenhain(tables)),
-        ),
-        Format(
-            "itnc",
-            "Heidenhain .COM of TNC 4xx and iTNC 530: one table, equidistant, unilateral",
-            lambda text, o: read_heidenhain(text, over=o.over, rotary=o.rotary),
-            _metric(lambda tables, o: write_itnc(tables, within=o.within)),
-        ),
-        *(
-            Format(
-                f"linuxcnc-{comp_type}",
-                f"LinuxCNC COMP_FILE of COMP_FILE_TYPE {comp_type} ({what}): one leadscrew table",
-                partial(_read_linuxcnc, comp_type=comp_type),
-                partial(_write_linuxcnc, comp_type=comp_type),
-            )
-            for comp_type, what in enumerate(("positions", "trims"))
-        ),
-        Format(
-            "csv",
-            "plain CSV, a line for each point: anything",
-            lambda text, o: read_csv(text, axis=o.axis or ""),
-            _metric(lambda tables, _: write_csv(tables)),
-        ),
-    )
-}
+            f"linuxcnc-{comp_type}",
+            f"LinuxCNC COMP_FILE of COMP_FILE_TYPE {comp_type} ({what}): one leadscrew table",
+            partial(read_linuxcnc, comp_type=comp_type),
+            partial(write_linuxcnc, comp_type=comp_type),
+        )
+        for comp_type, what in enumerate(("positions", "trims"))
+    ),
+    Format("csv", "plain CSV, a line for each point: anything", read_csv, write_csv),
+)
+FORMATS = {one.name: one for one in _ALL}
 """The formats by name; ``LISTS`` is no file and stands beside them."""
 
 
@@ -152,9 +82,7 @@ def written(tables: Sequence[CompensationTable], name: str, options: Options) ->
     """
     text = FORMATS[name].write(tables, options)
     rotary = {n for t in tables for n, unit in ((t.axis, t.unit), (t.over, t.over_unit)) if unit == "deg"}
-    known = Options(
-        axis=tables[0].axis, over=tables[0].over, rotary=frozenset(rotary), inch=options.inch, encoder=options.encoder
-    )
+    known = replace(options, axis=tables[0].axis, over=tables[0].over, rotary=frozenset(rotary))
     return text, compared(tables, FORMATS[name].read(text, known), options.within)
 
 
@@ -169,19 +97,15 @@ def compared(
         if other is None:
             raise CannotHoldError(f"{table.name} is not in what was written")
         difference = largest_difference(table, other)
-        allowed = max(within or 0.0, WITHIN * table.positive.of.factor)
+        factor, unit = table.shown
+        allowed = max(within or 0.0, WITHIN * factor)
         if difference.size > allowed * (1.0 + 1e-6):
             raise CannotHoldError(
-                f"{table.name} would differ by {difference.size:.3f} {shown_unit(table)} at {difference.position:g} "
+                f"{table.name} would differ by {difference.size:.3f} {unit} at {difference.position:g} "
                 f"{table.over_unit}; {allowed:g} are allowed"
             )
         result.append(Compared(table, other, difference))
     return result
-
-
-def shown_unit(table: CompensationTable) -> str:
-    """Return the unit of a table's differences: µm or ″."""
-    return table.positive.of.scaled().unit
 
 
 def recognized(text: str) -> str | None:

@@ -23,11 +23,10 @@ and 1.6.4, pages 4-26 to 4-31 and 4.7.3; the header lines from files that public
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Sequence
 
-from .numbers import number, scale, shortened
-from .resample import on_equidistant_points
-from .table import CannotHoldError, CompensationTable, FormatError, Unit, beginning_at
+from .table import CompensationTable, beginning_at, on_equidistant_points
+from .text import DEFAULTS, CannotHoldError, FormatError, Options, number, shortened
 
 DECIMALS = 4
 POINTS_MAX_ITNC = 256
@@ -62,8 +61,11 @@ class _Sheet:
             raise FormatError(0, "the file ends behind BEGIN")
         self.labels = [(found.start(), found[0].upper()) for found in _WORD.finditer(self.lines[1])]
         self._check_labels()
-        for line, row in self._rows():
-            self._take(line, row)
+        for line, row in enumerate(self.lines[2:], 3):
+            if row.strip().upper() in {"[END]", "END"}:
+                break
+            if row.strip():
+                self._take(line, row)
         if not self.numbers:
             raise FormatError(0, "the file has no points")
         self.columns = {label: cells for label, cells in self.columns.items() if cells}
@@ -81,14 +83,8 @@ class _Sheet:
             self.labels.insert(1, (self.labels[0][0] + 2, _POSITION))
         self.columns = {label: [] for _, label in self.labels[1:]}
 
-    def _rows(self) -> Iterator[tuple[int, str]]:
-        for line, row in enumerate(self.lines[2:], 3):
-            if row.strip().upper() in {"[END]", "END"}:
-                return
-            if row.strip():
-                yield line, row
-
     def _take(self, line: int, row: str) -> None:
+        before = len(self.numbers)
         self.numbers.append(line)
         filled = set()
         for found in _WORD.finditer(row):
@@ -99,11 +95,9 @@ class _Sheet:
             filled.add(label)
             value = number(found[0], line, label)
             if label == "NR":
-                if value != len(self.numbers) - 1:
-                    raise FormatError(
-                        line, f"line number {len(self.numbers) - 1} expected, found {shortened(found[0])}"
-                    )
-            elif len(self.columns[label]) < len(self.numbers) - 1:
+                if value != before:
+                    raise FormatError(line, f"line number {before} expected, found {shortened(found[0])}")
+            elif len(self.columns[label]) < before:
                 raise FormatError(line, f"column {label} has a value here but not in the first line")
             else:
                 self.columns[label].append(value)
@@ -123,31 +117,19 @@ class _Sheet:
         else:
             datum, distance = number(self.grid[1], 1, "DATUM"), number(self.grid[2], 1, "DISTANCE")
             positions = [datum + index * distance for index in range(len(self.numbers))]
-            for line, place, said in zip(self.numbers, positions, written, strict=False):
-                if abs(place - said) > 1e-3:
-                    raise FormatError(line, f"the position is {said:g}, but DATUM and DISTANCE make it {place:g}")
+            for line, position, said in zip(self.numbers, positions, written, strict=False):
+                if abs(position - said) > 1e-3:
+                    raise FormatError(line, f"the position is {said:g}, but DATUM and DISTANCE make it {position:g}")
         for line, before, after in zip(self.numbers[1:], positions, positions[1:], strict=False):
             if after <= before:
                 raise FormatError(line, f"the positions must ascend, but {after:g} follows {before:g}")
         return positions
 
 
-def read_heidenhain(text: str, *, over: str | None = None, rotary: Collection[str] = ()) -> list[CompensationTable]:
-    """Return the tables of a file, one for each axis column that is filled.
+def read_heidenhain(text: str, options: Options = DEFAULTS) -> list[CompensationTable]:
+    """Return a table for each axis column that is filled.
 
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    over : str or None
-        The axis whose positions the file has; None: the one its name tells, or else the only corrected one.
-    rotary : collection of str
-        Names of the rotary axes: the files do not tell them.
-
-    Raises
-    ------
-    FormatError
-        If the file is not of this format, with the line.
+    Its positions are those of ``options.over``, else of the axis its name tells, else of the only corrected one.
     """
     sheet = _Sheet(text)
     positions = sheet.positions()
@@ -159,88 +141,57 @@ def read_heidenhain(text: str, *, over: str | None = None, rotary: Collection[st
         raise FormatError(2, f"{_BACKLASH} is filled for {len(axes)} axes at once: it belongs to one")
     assert sheet.begin is not None
     named = _FILE.match(sheet.begin[1])
-    over = over or (named[1].upper() if named else axes[0] if len(axes) == 1 else None)
+    over = options.over or (named[1].upper() if named else axes[0] if len(axes) == 1 else None)
     if over is None:
         raise FormatError(1, f"the file does not tell the axis whose positions it has, and corrects {', '.join(axes)}")
-    over_unit: Unit = "deg" if over in rotary else "mm"
+    over_unit = options.unit(over)
     if over_unit == "deg":
         # A distance of four decimals misses the end of the turn by a little for each line.
         if positions[0] != 0.0 or abs(positions[-1] - TURN) > 1e-4 * len(positions):
             raise FormatError(sheet.numbers[0], f"the table of a rotary axis goes from 0 to {TURN:g}")
         positions = [position * TURN / positions[-1] for position in positions]
-    places = tuple(position * scale(over_unit, sheet.inch) for position in positions)
+    units = Options(inch=sheet.inch)
+    positions = [position * units.scale(over_unit) for position in positions]
+    period = TURN if over_unit == "deg" else None
     tables = []
     for axis, values in sheet.columns.items():
-        unit: Unit = "deg" if axis in rotary else "mm"
-        factor = -scale(unit, sheet.inch)
-        tables.append(
-            CompensationTable.of(
-                axis,
-                over,
-                places,
-                [value * factor for value in values],
-                None if negative is None else [value * factor for value in negative],
-                TURN if over_unit == "deg" else None,
-                unit,
-                over_unit,
-            )
-        )
+        unit = options.unit(axis)
+        factor = -units.scale(unit)
+        positive = [value * factor for value in values]
+        reverse = None if negative is None else [value * factor for value in negative]
+        tables.append(CompensationTable.of(axis, over, positions, positive, reverse, period, unit, over_unit))
     return tables
 
 
-def write_heidenhain(tables: Sequence[CompensationTable]) -> str:
-    """Return the file of a TNC 6xx or later with the tables over one axis.
+def write_heidenhain(tables: Sequence[CompensationTable], options: Options = DEFAULTS) -> str:
+    """Return the file of a TNC 6xx or later with tables over one axis, a bilateral one alone.
 
-    Parameters
-    ----------
-    tables : sequence of CompensationTable
-        All over the same axis; a bilateral one alone. Over a rotary axis they repeat every 360°.
-
-    Raises
-    ------
-    CannotHoldError
-        For anything else.
+    Over a rotary axis they repeat every 360°.
     """
+    options.check_metric()
     tables, positions = _together(tables)
     if len(tables) > 1 and any(table.negative is not None for table in tables):
         raise CannotHoldError(f"a .COM file holds one bilateral table; there are {len(tables)} over {tables[0].over}")
     labels = ["AXISPOS", "BACKLASH", *(table.axis for table in tables)]
     lines = [f"BEGIN AXIS_{tables[0].over}.COM MM", _row("NR", labels)]
-    columns = [table.positive.on(positions).y for table in tables]
-    backlash = None if tables[0].negative is None else tables[0].negative.on(positions).y
-    for index, position in enumerate(positions):
-        reverse = "" if backlash is None else _signed(-backlash[index])
-        cells = [_signed(position), reverse, *(_signed(-column[index]) for column in columns)]
-        lines.append(_row(str(index), cells))
+    columns = [[_signed(position) for position in positions]]
+    for curve in (tables[0].negative, *(table.positive for table in tables)):
+        columns.append([""] * len(positions) if curve is None else [_signed(-y) for y in curve.on(positions).y])
+    lines += [_row(str(index), cells) for index, cells in enumerate(zip(*columns, strict=True))]
     return "\n".join([*lines, "[END]"]) + "\n"
 
 
-def write_itnc(tables: Sequence[CompensationTable], *, within: float | None = None) -> str:
-    """Return the file of a TNC 4xx or iTNC 530 with a unilateral table.
-
-    Parameters
-    ----------
-    tables : sequence of CompensationTable
-        One table; over a rotary axis it repeats every 360°.
-    within : float or None
-        µm (″) that equidistant points may cost; None: they must be equidistant.
-
-    Raises
-    ------
-    CannotHoldError
-        For a bilateral table, several tables, and what 256 equidistant points cannot hold.
-    """
+def write_itnc(tables: Sequence[CompensationTable], options: Options = DEFAULTS) -> str:
+    """Return the file of a TNC 4xx or iTNC 530 with a unilateral table; over a rotary axis it repeats every 360°."""
+    options.check_metric()
     if len(tables) != 1:
         raise CannotHoldError(f"there are {len(tables)} tables: write one file for each")
-    if tables[0].negative is not None:
-        raise CannotHoldError(
-            f"{tables[0].name} is bilateral: this generation has no column for the negative direction"
-        )
-    if len(tables[0].positions) > POINTS_MAX_ITNC and within is None:
-        raise CannotHoldError(
-            f"{tables[0].name} has {len(tables[0].positions)} points; the control takes {POINTS_MAX_ITNC}"
-        )
-    even = on_equidistant_points(_turning(tables[0]), POINTS_MAX_ITNC, within)
+    table = tables[0]
+    if table.negative is not None:
+        raise CannotHoldError(f"{table.name} is bilateral: this generation has no column for the negative direction")
+    if len(table.positions) > POINTS_MAX_ITNC and options.within is None:
+        raise CannotHoldError(f"{table.name} has {len(table.positions)} points; the control takes {POINTS_MAX_ITNC}")
+    even = on_equidistant_points(_turning(table), POINTS_MAX_ITNC, options.within)
     datum, distance = even.positions[0], even.positions[1] - even.positions[0]
     lines = [
         f"BEGIN AXIS-{even.over}.COM DATUM:{_signed(datum)} DISTANCE:{_signed(distance)}",

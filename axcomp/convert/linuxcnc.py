@@ -14,8 +14,10 @@ Source: LinuxCNC, INI Configuration, section [JOINT_<num>]; ``usrmotLoadComp`` i
 
 from __future__ import annotations
 
-from .numbers import decimal, number, scale, shortened
-from .table import CannotHoldError, CompensationTable, FormatError, Unit
+from collections.abc import Sequence
+
+from .table import CompensationTable
+from .text import CannotHoldError, FormatError, Options, decimal, number, shortened
 
 POINTS_MAX = 256
 """Triplets of a joint."""
@@ -24,36 +26,17 @@ _COMMENT = ("#", ";")
 _COLUMNS = ("nominal", "forward", "reverse")
 
 
-def read_linuxcnc(
-    text: str, *, comp_type: int, axis: str, inch: bool = False, rotary: bool = False
-) -> CompensationTable:
-    """Return the table of a file.
-
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    comp_type : int
-        ``COMP_FILE_TYPE``: 0 positions, 1 trims.
-    axis : str
-        Name of the joint's axis, which the file does not tell.
-    inch : bool
-        Machine units are inches.
-    rotary : bool
-        The joint is angular.
-
-    Raises
-    ------
-    FormatError
-        If the file is not of this format, with the line.
-    """
-    unit: Unit = "deg" if rotary else "mm"
-    factor = scale(unit, inch)
+def read_linuxcnc(text: str, options: Options, comp_type: int) -> list[CompensationTable]:
+    """Return the table of a file for ``options.axis``; ``comp_type``: ``COMP_FILE_TYPE``, 0 positions, 1 trims."""
+    axis = options.axis
+    if axis is None:
+        raise FormatError(0, "a LinuxCNC file does not tell its axis: give it with --axis")
+    unit = options.unit(axis)
+    factor = options.scale(unit)
     nominals: list[float] = []
     forward: list[float] = []
     reverse: list[float] = []
-    lines = text.rstrip().split("\n") if text.strip() else []
-    for line, written in enumerate(lines, 1):
+    for line, written in enumerate(text.rstrip().split("\n") if text.strip() else [], 1):
         words = written.split()
         if len(words) < 3 or (len(words) > 3 and not words[3].startswith(_COMMENT)):
             raise FormatError(
@@ -74,26 +57,15 @@ def read_linuxcnc(
         reverse.append(trims[1] * factor)
     if not nominals:
         raise FormatError(0, "the file has no points")
-    return CompensationTable.of(axis, axis, nominals, forward, reverse, unit=unit, over_unit=unit)
+    return [CompensationTable.of(axis, axis, nominals, forward, reverse, None, unit, unit)]
 
 
-def write_linuxcnc(table: CompensationTable, *, comp_type: int, inch: bool = False) -> str:
-    """Return the file of a table.
-
-    Parameters
-    ----------
-    table : CompensationTable
-        A leadscrew table that does not repeat, of at most 256 points.
-    comp_type : int
-        ``COMP_FILE_TYPE``: 0 positions, 1 trims.
-    inch : bool
-        Machine units are inches.
-
-    Raises
-    ------
-    CannotHoldError
-        For a cross table, one that repeats, or one that is too long.
-    """
+def write_linuxcnc(tables: Sequence[CompensationTable], options: Options, comp_type: int) -> str:
+    """Return the file of one leadscrew table that does not repeat, of at most 256 points."""
+    if len(tables) != 1:
+        names = ", ".join(table.name for table in tables)
+        raise CannotHoldError(f"a LinuxCNC file holds one table; there are {len(tables)}: {names}")
+    [table] = tables
     if table.kind == "cross":
         raise CannotHoldError(f"{table.name} cannot be held: LinuxCNC corrects a joint over its own position")
     if table.period is not None:
@@ -102,7 +74,7 @@ def write_linuxcnc(table: CompensationTable, *, comp_type: int, inch: bool = Fal
         )
     if len(table.positions) > POINTS_MAX:
         raise CannotHoldError(f"{table.name} has {len(table.positions)} points; LinuxCNC takes {POINTS_MAX}")
-    factor = scale(table.unit, inch)
+    factor = options.scale(table.unit)
     lines = []
     for position, positive, negative in zip(table.positions, table.positive.y, table.curve(-1).y, strict=True):
         nominal = position / factor

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ..kinds import Cross, Leadscrew, shown
@@ -10,7 +10,8 @@ from ..kinds import tables_of as tables_of_machine
 from ..model.curve import Curve
 from ..model.grid import Grid
 from ..model.machine import Axis, AxisType, Machine, ModuloRange
-from .table import CannotHoldError, CompensationTable, Unit
+from .table import CompensationTable
+from .text import CannotHoldError, Unit
 
 CONVERTED = ("leadscrew", "cross")
 """Kinds that are tables over the position of one axis."""
@@ -19,16 +20,7 @@ _OVER = {shown.ACCELERATION: "is a table over accelerations", shown.SPEED: "is a
 
 
 def tables_of(machine: Machine, axis: str | None = None, kind: str | None = None) -> list[CompensationTable]:
-    """Return the tables of a machine, axis by axis.
-
-    Parameters
-    ----------
-    machine : Machine
-        The one whose compensations are in force.
-    axis : str or None
-        Only of the axis with this name.
-    kind : str or None
-        Only of this kind, one of ``KINDS``.
+    """Return the tables of a machine that are in force, axis by axis; only of one axis (name) or kind, if given.
 
     Raises
     ------
@@ -67,10 +59,6 @@ def _why(table: shown.Table) -> str:
     )
 
 
-def _negated(values: Iterable[float]) -> tuple[float, ...]:
-    return tuple(0.0 - value for value in values)
-
-
 def _unit(axis: Axis) -> Unit:
     return "mm" if axis.type is AxisType.TRANSLATORY else "deg"
 
@@ -91,20 +79,15 @@ def dropped(machine: Machine, tables: Sequence[CompensationTable]) -> list[str]:
 
 
 def machine_with(tables: Sequence[CompensationTable], machine: Machine | None = None) -> Machine:
-    """Return a machine with these tables.
+    """Return a machine with these tables, at most one of a kind for each axis.
 
-    Parameters
-    ----------
-    tables : sequence of CompensationTable
-        At most one of a kind for each axis.
-    machine : Machine or None
-        The machine they are for: its axes keep what else they have. None: a new one, whose axes are numbered as they
-        come (``AX3``, as SINUMERIK calls them, is number 3).
+    The axes of ``machine`` keep what else they have; where it is None the axes of a new one are numbered as they come
+    (``AX3``, as SINUMERIK calls them, is number 3).
 
     Raises
     ------
     CannotHoldError
-        If the lists have no place for a table, or the machine no such axis.
+        If the lists have no room for a table, or the machine no such axis.
     """
     axes = {axis.name: axis for axis in machine.axes} if machine is not None else _new_axes(tables)
     for table in tables:
@@ -119,13 +102,9 @@ def machine_with(tables: Sequence[CompensationTable], machine: Machine | None = 
             raise CannotHoldError(f"{table.axis} has two {table.kind} tables; the lists have room for one")
         done.add((table.axis, table.kind))
         axis = axes[table.axis]
-        axes[table.axis] = (
-            _with_leadscrew(axis, table)
-            if table.kind == "leadscrew"
-            else _with_cross(axis, axes[table.over].number, table)
-        )
-    found = tuple(axes.values())
-    return Machine(found) if machine is None else replace(machine, axes=found)
+        is_cross = table.kind == "cross"
+        axes[table.axis] = _with_cross(axis, axes[table.over], table) if is_cross else _with_leadscrew(axis, table)
+    return replace(machine or Machine(()), axes=tuple(axes.values()))
 
 
 def _new_axes(tables: Sequence[CompensationTable]) -> dict[str, Axis]:
@@ -149,7 +128,6 @@ def _new_axes(tables: Sequence[CompensationTable]) -> dict[str, Axis]:
 
 
 def _with_leadscrew(axis: Axis, table: CompensationTable) -> Axis:
-    old = axis.leadscrew or Leadscrew((), ())
     modulo = axis.modulo
     if table.period is not None:
         if table.unit == "mm":
@@ -159,28 +137,31 @@ def _with_leadscrew(axis: Axis, table: CompensationTable) -> Axis:
             raise CannotHoldError(
                 f"{table.name} repeats every {table.period:g} deg, its axis from {modulo.start:g} to {modulo.end:g}"
             )
+    old = axis.leadscrew or Leadscrew((), ())
+    # The lists hold actual − programmed.
+    error = table.mapped(lambda curve: curve.scaled(-1.0))
     leadscrew = replace(
         old,
         positions=table.positions,
-        positive=_negated(table.positive.y),
-        negative=None if table.negative is None else _negated(table.negative.y),
+        positive=error.positive.y,
+        negative=None if error.negative is None else error.negative.y,
         modulo=table.period is not None,
         max_points=max(old.max_points, len(table.positions)),
     )
     return replace(axis.having(leadscrew), modulo=modulo)
 
 
-def _with_cross(axis: Axis, master: int, table: CompensationTable) -> Axis:
+def _with_cross(axis: Axis, master: Axis, table: CompensationTable) -> Axis:
     if table.negative is not None:
         raise CannotHoldError(f"{table.name} is bilateral: the lists have one curve for both directions of the master")
     if table.period is not None:
         raise CannotHoldError(
             f"{table.name} repeats every {table.period:g} {table.over_unit}: a cross table of the lists ends"
         )
-    old = axis.cross or Cross(master, (), ())
+    old = axis.cross or Cross(master.number, (), ())
     cross = replace(
         old,
-        master=master,
+        master=master.number,
         positions=table.positions,
         corrections=table.positive.y,
         max_points=max(old.max_points, len(table.positions)),

@@ -14,43 +14,50 @@ import csv
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from io import StringIO
+from typing import NamedTuple
 
-from .numbers import decimal, number, shortened
-from .table import CompensationTable, FormatError, Unit
+from .table import CompensationTable
+from .text import DEFAULTS, FormatError, Options, Unit, decimal, number, shortened
 
 COLUMNS = ("axis", "unit", "over", "over_unit", "period", "position", "correction_positive", "correction_negative")
 _SIGNS = {"correction": 1.0, "error": -1.0}
 _KNOWN = {*COLUMNS, *(f"{name}{side}" for name in _SIGNS for side in ("", "_positive", "_negative"))}
 _UNITS: dict[str, Unit] = {"": "mm", "mm": "mm", "deg": "deg", "°": "deg"}
-_FIELD_MAX = 1000
+_LINE_MAX = 1000
+
+
+class _Values(NamedTuple):
+    """Names of the columns of positive and of negative motion, and the sign that makes their values corrections."""
+
+    positive: str
+    negative: str
+    sign: float
 
 
 @dataclass
 class _Written:
-    """The lines of one table."""
+    """The lines of one table: the first one, what all say of its unit and period, and the columns."""
 
     line: int
-    head: tuple[str, str, str, str]
+    head: tuple[str, str, str]
     positions: list[float] = field(default_factory=list)
     positive: list[float] = field(default_factory=list)
     negative: list[float] = field(default_factory=list)
 
+    def take(self, cells: Mapping[str, str], line: int, values: _Values) -> None:
+        """Add a line; FormatError for what is no number or does not ascend."""
+        position = number(cells["position"], line, "position")
+        if self.positions and position <= self.positions[-1]:
+            raise FormatError(line, f"the positions must ascend, but {position:g} follows {self.positions[-1]:g}")
+        self.positions.append(position)
+        self.positive.append(values.sign * number(cells[values.positive], line, values.positive))
+        # An empty cell: the value of the positive direction serves both.
+        negative = cells[values.negative] or cells[values.positive]
+        self.negative.append(values.sign * number(negative, line, values.negative))
 
-def read_csv(text: str, *, axis: str = "") -> list[CompensationTable]:
-    """Return the tables of a file in the order they begin.
 
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    axis : str
-        Name of the axis where the file has no such column.
-
-    Raises
-    ------
-    FormatError
-        If the file is not of this format, with the line.
-    """
+def read_csv(text: str, options: Options = DEFAULTS) -> list[CompensationTable]:
+    """Return the tables of a file in the order they begin; of ``options.axis`` where no column names the axis."""
     rows = list(_rows(text))
     if not rows:
         raise FormatError(0, "the file has no line that names the columns")
@@ -65,10 +72,18 @@ def read_csv(text: str, *, axis: str = "") -> list[CompensationTable]:
             raise FormatError(header_line, f"column {name!r} is there twice")
     values = _value_columns(names, header_line)
     tables: dict[tuple[str, str], _Written] = {}
-    for line, cells in rows[1:]:
-        if len(cells) != len(names):
-            raise FormatError(line, f"{len(cells)} cells stand under {len(names)} columns")
-        _take(dict(zip(names, cells, strict=True)), line, axis, values, tables)
+    for line, row in rows[1:]:
+        if len(row) != len(names):
+            raise FormatError(line, f"{len(row)} cells stand under {len(names)} columns")
+        cells = dict.fromkeys(COLUMNS, "") | dict(zip(names, row, strict=True))
+        axis = cells["axis"] or options.axis
+        if not axis:
+            raise FormatError(line, "the file does not tell the axis, so it must be given")
+        over, head = cells["over"] or axis, (cells["unit"], cells["over_unit"], cells["period"])
+        written = tables.setdefault((axis, over), _Written(line, head))
+        if written.head != head:
+            raise FormatError(line, f"unit or period of {axis} over {over} differ from line {written.line}")
+        written.take(cells, line, values)
     if not tables:
         raise FormatError(0, "the file has no points")
     return [_table(key, written) for key, written in tables.items()]
@@ -82,7 +97,7 @@ def _rows(text: str) -> Iterable[tuple[int, list[str]]]:
         if not line.strip() or line.startswith("#"):
             continue
         try:
-            cells = next(csv.reader([line[:_FIELD_MAX]], delimiter=separator, strict=True))
+            cells = next(csv.reader([line[:_LINE_MAX]], delimiter=separator, strict=True))
         except csv.Error as error:
             raise FormatError(number_, f"{error}") from None
         if separator != ",":
@@ -90,8 +105,7 @@ def _rows(text: str) -> Iterable[tuple[int, list[str]]]:
         yield number_, [cell.strip() for cell in cells]
 
 
-def _value_columns(names: Sequence[str], line: int) -> tuple[tuple[str, float], tuple[str, float]]:
-    """Return column and sign of the values in positive and negative motion."""
+def _value_columns(names: Sequence[str], line: int) -> _Values:
     if "position" not in names:
         raise FormatError(line, "there is no column 'position'")
     kinds = [kind for kind in _SIGNS if any(name.startswith(kind) for name in names)]
@@ -107,36 +121,11 @@ def _value_columns(names: Sequence[str], line: int) -> tuple[tuple[str, float], 
     if positive not in sides:
         raise FormatError(line, f"there is no column {positive!r}")
     negative = f"{kind}_negative" if f"{kind}_negative" in sides else positive
-    return (positive, _SIGNS[kind]), (negative, _SIGNS[kind])
-
-
-def _take(
-    cells: Mapping[str, str],
-    line: int,
-    axis: str,
-    values: tuple[tuple[str, float], tuple[str, float]],
-    tables: dict[tuple[str, str], _Written],
-) -> None:
-    name = cells.get("axis", "") or axis
-    if not name:
-        raise FormatError(line, "the file does not tell the axis, so it must be given")
-    over = cells.get("over", "") or name
-    head = (cells.get("unit", ""), cells.get("over_unit", ""), cells.get("period", ""), name)
-    written = tables.setdefault((name, over), _Written(line, head))
-    if written.head != head:
-        raise FormatError(line, f"unit or period of {name} over {over} differ from line {written.line}")
-    position = number(cells["position"], line, "position")
-    if written.positions and position <= written.positions[-1]:
-        raise FormatError(line, f"the positions must ascend, but {position:g} follows {written.positions[-1]:g}")
-    written.positions.append(position)
-    (positive, sign), (negative, _) = values
-    written.positive.append(sign * number(cells[positive], line, positive))
-    # An empty cell: the value of the positive direction serves both.
-    written.negative.append(sign * number(cells[negative] or cells[positive], line, negative))
+    return _Values(positive, negative, _SIGNS[kind])
 
 
 def _table(key: tuple[str, str], written: _Written) -> CompensationTable:
-    unit, over_unit, period, _ = written.head
+    unit, over_unit, period = written.head
     for said in (unit, over_unit):
         if said not in _UNITS:
             raise FormatError(written.line, f"a unit is mm or deg, not {shortened(said)!r}")
@@ -144,24 +133,16 @@ def _table(key: tuple[str, str], written: _Written) -> CompensationTable:
     over = own if key[0] == key[1] and not over_unit else _UNITS[over_unit]
     if key[0] == key[1] and own != over:
         raise FormatError(written.line, f"axis {key[0]} cannot be in mm and deg at once")
+    repeats = number(period, written.line, "period") if period else None
     try:
-        return CompensationTable.of(
-            *key,
-            written.positions,
-            written.positive,
-            written.negative,
-            number(period, written.line, "period") if period else None,
-            own,
-            over,
-        )
+        return CompensationTable.of(*key, written.positions, written.positive, written.negative, repeats, own, over)
     except ValueError as error:
-        if isinstance(error, FormatError):
-            raise
         raise FormatError(written.line, str(error)) from None
 
 
-def write_csv(tables: Sequence[CompensationTable]) -> str:
+def write_csv(tables: Sequence[CompensationTable], options: Options = DEFAULTS) -> str:
     """Return the file of any tables."""
+    options.check_metric()
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)

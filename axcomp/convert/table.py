@@ -7,29 +7,21 @@ actual − programmed and is subtracted (semantics §5), so it changes its sign 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import Literal, NamedTuple, TypeAlias
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
 
 from ..model.curve import Curve
-from ..model.quantity import Quantity, symbol
+from ..model.quantity import Quantity, Shown, shown, symbol
+from .text import CannotHoldError, Unit
 
-Unit: TypeAlias = Literal["mm", "deg"]
 _UNITS: dict[str, Unit] = {"mm": "mm", "°": "deg"}
 
-MM_PER_INCH = 25.4
-
-
-class FormatError(ValueError):
-    """A file that is not of its format, with the line that shows it (counted from 1; 0: the file as a whole)."""
-
-    def __init__(self, line: int, message: str) -> None:
-        self.line = line
-        self.message = message
-        super().__init__(f"line {line}: {message}" if line else message)
-
-
-class CannotHoldError(ValueError):
-    """A table that the other format has no room for: the message says which one and what is missing."""
+ON_GRID = 1e-4
+"""How far a point may lie off its position and still count as equidistant, mm or °: what the lists resolve."""
+EXACT = 1e-9
+"""Differences up to this, in mm or °, come from the arithmetic alone."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,18 +65,9 @@ class CompensationTable:
             Points or values are not what a ``Curve`` takes.
         """
         sides = [positive] if negative is None or tuple(negative) == tuple(positive) else [positive, negative]
-        curves = (
-            Curve(
-                tuple(positions),
-                tuple(side),
-                Quantity("position", symbol(over_unit), over),
-                Quantity("correction", symbol(unit), axis),
-                period,
-                name_of(axis, over),
-            )
-            for side in sides
-        )
-        return cls(axis, over, *curves)
+        quantities = Quantity("position", symbol(over_unit), over), Quantity("correction", symbol(unit), axis)
+        name = name_of(axis, over)
+        return cls(axis, over, *(Curve(tuple(positions), tuple(side), *quantities, period, name) for side in sides))
 
     @property
     def kind(self) -> str:
@@ -115,6 +98,11 @@ class CompensationTable:
     def over_unit(self) -> Unit:
         """``mm`` or ``deg``: of the positions."""
         return _UNITS[self.positive.over.unit]
+
+    @property
+    def shown(self) -> Shown:
+        """Unit in which differences of its corrections are shown, µm or ″, with its factor."""
+        return shown(self.positive.of.unit)
 
     def __repr__(self) -> str:
         sides = "unilateral" if self.negative is None else "bilateral"
@@ -154,6 +142,52 @@ def beginning_at(table: CompensationTable, start: float) -> CompensationTable:
     return table.mapped(lambda curve: curve.beginning_at(start))
 
 
+def on_equidistant_points(table: CompensationTable, max_points: int, within: float | None) -> CompensationTable:
+    """Return the table on exactly equidistant points; a table that repeats ends one period after it begins.
+
+    ``within``: how many µm (″) another choice of points may change the corrections; None: the points stay as they are.
+
+    Raises
+    ------
+    CannotHoldError
+        If the points are not equidistant and no bound is stated, the bound cannot be met, or there are too many points.
+    """
+    full = table.mapped(Curve.closed)
+    x = full.positions
+    if len(x) == 1:
+        # A constant: any second point makes a distance.
+        return full.mapped(lambda curve: replace(curve, x=(x[0], x[0] + 1.0), y=curve.y * 2))
+    even = np.linspace(x[0], x[-1], len(x))
+    if np.max(np.abs(even - x)) <= ON_GRID:
+        if len(x) > max_points:
+            raise CannotHoldError(f"{table.name} has {len(x)} points; there is room for {max_points}")
+        return full.mapped(lambda curve: replace(curve, x=tuple(even.tolist())))
+    factor, unit = table.shown
+    if within is None:
+        gaps = np.diff(x)
+        raise CannotHoldError(
+            f"the points of {table.name} are {gaps.min():g} to {gaps.max():g} {table.over_unit} apart, but must be "
+            f"equidistant: say how many {unit} other points may cost (--within)"
+        )
+    least = np.inf
+    for count in range(2, max_points + 1):
+        points = np.linspace(x[0], x[-1], count)
+        off = max(_off(curve, points) for curve in (full.positive, full.negative) if curve is not None)
+        if off <= within / factor + EXACT:
+            return full.mapped(lambda curve, points=points: curve.on(points.tolist()))  # type: ignore[misc]
+        least = min(least, factor * off)
+    raise CannotHoldError(
+        f"{table.name} on up to {max_points} equidistant points is {least:.3f} {unit} off at best, "
+        f"not {within:g} {unit}"
+    )
+
+
+def _off(curve: Curve, points: np.ndarray) -> float:
+    """Return how far a curve is off through other points of its own: the largest difference is at the old ones."""
+    through = np.interp(curve.x, points, np.interp(points, curve.x, curve.y))
+    return float(np.max(np.abs(through - curve.y)))
+
+
 class Difference(NamedTuple):
     """The largest difference of two tables: how much (µm or ″), at which position, in which direction (±1)."""
 
@@ -166,4 +200,4 @@ def largest_difference(one: CompensationTable, other: CompensationTable) -> Diff
     """Compare two tables in both directions."""
     gaps = [(one.curve(direction).largest_gap(other.curve(direction)), direction) for direction in (1, -1)]
     (size, position), direction = max(gaps, key=lambda gap: gap[0].size)
-    return Difference(one.positive.of.factor * size, position, direction)
+    return Difference(one.shown.factor * size, position, direction)

@@ -1,4 +1,4 @@
-"""Both FMUs in one co-simulation, run by ``python -m axcomp.demo.coupling JOB`` in a process of its own.
+"""Both FMUs in one co-simulation, run by ``python -m axcomp.demo.coupling FOLDER`` in a process of its own.
 
 The compensation computes corrected setpoints and currents, the plant moves, its measured positions go back. Both make
 the same communication steps side by side, so what one puts out at the end of a step reaches the other in the next one:
@@ -8,10 +8,9 @@ this delay of one step is inherent to co-simulation, as it is to a fieldbus.
 from __future__ import annotations
 
 import ctypes
-import json
+import pickle
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,50 +22,32 @@ from ..engine.motion import Array
 
 COMPENSATION, PLANT = "axcomp", "plant"
 COMMANDS = ("setpoint", "velocity", "acceleration")
+BATCH, RESULTS = "batch.pickle", "results.pickle"
+"""What a process finds in its folder, and what it leaves there: what ``couple`` returns of each simulation."""
 
 
-@dataclass(frozen=True)
-class Job:
-    """What a process has to do; its arrays lie beside it in ``inputs.npz`` and ``results.npz``.
+class Simulation(NamedTuple):
+    """Setpoints, velocities and accelerations of all axes, shape (cycles, 3 · axes), and inputs that are false."""
 
-    Attributes
-    ----------
-    axes : tuple of str
-        Names of the axes in the variables of both FMUs.
-    currents : tuple of str
-        Those with friction compensation.
-    cycle_time : float
-        Communication step, s.
-    off : tuple of tuple of str
-        For each run the ``enable`` inputs that are false.
-    tool_length : float or None
-        mm; None: the plant knows no tool tip.
+    commands: Array
+    off: tuple[str, ...]
+
+
+class Batch(NamedTuple):
+    """What a process has to do.
+
+    ``axes``: names in the variables of both FMUs; ``currents``: those with friction compensation; ``cycle_time``: the
+    communication step, s; ``tool_length``: mm, None: the plant knows no tool tip.
     """
 
-    axes: tuple[str, ...]
-    currents: tuple[str, ...]
+    axes: Sequence[str]
+    currents: Sequence[str]
     cycle_time: float
-    off: tuple[tuple[str, ...], ...]
-    tool_length: float | None = None
+    tool_length: float | None
+    simulations: Sequence[Simulation]
 
 
-class Recorded(NamedTuple):
-    """What a run shows at the end of each step, all in mm or °.
-
-    Attributes
-    ----------
-    true, lag : array, shape (cycles, axes)
-        True positions and following errors.
-    tip : array, shape (cycles, 3)
-        Error of the tool tip in the workpiece's coordinates; shape (cycles, 0) for a plant that knows none.
-    """
-
-    true: Array
-    lag: Array
-    tip: Array
-
-
-class Instance:
+class CoupledFmu:
     """An instance of an unpacked FMU."""
 
     def __init__(self, folder: Path) -> None:
@@ -119,91 +100,63 @@ class Reals:
         return values
 
 
-def couple(folder: Path, job: Job, commands: Array, off: Sequence[str]) -> Recorded:
-    """Run both FMUs from rest to the end of the commands.
+def couple(folder: Path, batch: Batch, simulation: Simulation) -> Array:
+    """Run both FMUs, unpacked in ``axcomp`` and ``plant`` of a folder, from rest to the end of the commands.
 
-    Parameters
-    ----------
-    folder : Path
-        Holds the unpacked FMUs ``axcomp`` and ``plant``.
-    job : Job
-        Axes and step size.
-    commands : array, shape (cycles, 3 · axes)
-        Setpoints, velocities, accelerations of all axes.
-    off : sequence of str
-        ``enable`` inputs that are false.
+    Returns
+    -------
+    array, shape (cycles, 2 · axes), or (cycles, 2 · axes + 6) if the plant knows a tool tip
+        At the end of each step: true positions, following errors, and the tip and where it should be in the
+        workpiece's coordinates; all in mm or °.
     """
-    compensation, plant = Instance(folder / COMPENSATION), Instance(folder / PLANT)
-    axes = job.axes
+    compensation, plant = CoupledFmu(folder / COMPENSATION), CoupledFmu(folder / PLANT)
+    axes = batch.axes
     given = compensation.reals(f"{axis}.{name}" for name in COMMANDS for axis in axes)
     actual = compensation.reals(f"{axis}.actual_position" for axis in axes)
-    corrected = compensation.reals(
-        [f"{axis}.corrected_setpoint" for axis in axes] + [f"{axis}.current" for axis in job.currents]
-    )
-    driven = plant.reals([f"{axis}.setpoint" for axis in axes] + [f"{axis}.current" for axis in job.currents])
+    currents = [f"{axis}.current" for axis in batch.currents]
+    corrected = compensation.reals([f"{axis}.corrected_setpoint" for axis in axes] + currents)
+    driven = plant.reals([f"{axis}.setpoint" for axis in axes] + currents)
     measured = plant.reals(f"{axis}.measured_position" for axis in axes)
-    positions = [f"{axis}.{name}" for name in ("true_position", "following_error") for axis in axes]
-    tips = [] if job.tool_length is None else [f"tcp.{prefix}{k}" for prefix in ("", "nominal_") for k in "xyz"]
-    meant = plant.reals(f"{axis}.commanded_position" for axis in axes if tips)
-    shown = plant.reals(positions + tips)
+    names = [f"{axis}.{name}" for name in ("true_position", "following_error") for axis in axes]
+    knows_tip = batch.tool_length is not None
+    names += [f"tcp.{prefix}{k}" for prefix in ("", "nominal_") for k in "xyz" if knows_tip]
+    meant = plant.reals(f"{axis}.commanded_position" for axis in axes if knows_tip)
+    shown = plant.reals(names)
 
-    rows = commands.tolist()
-    if job.tool_length is not None:
-        for instance in (compensation, plant):
-            instance.reals(["tool_length"]).set([job.tool_length])
-    compensation.switch_off(off)
+    rows = simulation.commands.tolist()
+    if batch.tool_length is not None:
+        for fmu in (compensation, plant):
+            fmu.reals(["tool_length"]).set([batch.tool_length])
+    compensation.switch_off(simulation.off)
     given.set(rows[0])
     actual.set(rows[0][: len(axes)])
     compensation.fmu.exitInitializationMode()
     driven.set(corrected.get())
     plant.fmu.exitInitializationMode()
 
-    recorded = np.empty((len(rows), len(positions) + len(tips)))
+    recorded = np.empty((len(rows), len(names)))
     for cycle, row in enumerate(rows):
-        time = cycle * job.cycle_time
+        time = cycle * batch.cycle_time
         given.set(row)
         actual.set(measured.get())
         driven.set(corrected.get())
         meant.set(row[: meant.count])
-        compensation.fmu.doStep(time, job.cycle_time)
-        plant.fmu.doStep(time, job.cycle_time)
+        compensation.fmu.doStep(time, batch.cycle_time)
+        plant.fmu.doStep(time, batch.cycle_time)
         recorded[cycle] = shown.get()
     compensation.close()
     plant.close()
-    true, lag, tip = np.split(recorded, [len(axes), 2 * len(axes)], axis=1)
-    half = len(tips) // 2
-    return Recorded(true, lag, tip[:, :half] - tip[:, half:])
+    return recorded
 
 
-def write_job(place: Path, job: Job, commands: Sequence[Array]) -> None:
-    """Write a job and the commands of its runs."""
-    place.mkdir(parents=True, exist_ok=True)
-    (place / "job.json").write_text(json.dumps(asdict(job)), encoding="utf-8")
-    arrays: dict[str, Any] = {str(run): rows for run, rows in enumerate(commands)}
-    np.savez(place / "inputs.npz", **arrays)
-
-
-def read_results(place: Path) -> list[Recorded]:
-    """Return what each run has recorded; FileNotFoundError if there is nothing."""
-    with np.load(place / "results.npz") as arrays:
-        runs = range(len(arrays.files) // len(Recorded._fields))
-        return [Recorded(*(arrays[f"{name}{run}"] for name in Recorded._fields)) for run in runs]
-
-
-def main(place: Path) -> None:
-    """Do a job that lies in a folder beside those of the FMUs."""
-    values = json.loads((place / "job.json").read_text(encoding="utf-8"))
-    lists = {name: tuple(values.pop(name)) for name in ("axes", "currents")}
-    job = Job(**values | lists | {"off": tuple(map(tuple, values["off"]))})
-    results: dict[str, Any] = {}
-    with np.load(place / "inputs.npz") as inputs:
-        for run, off in enumerate(job.off):
-            recorded = couple(place.parent, job, inputs[str(run)], off)
-            results.update((f"{name}{run}", values) for name, values in recorded._asdict().items())
+def main(folder: Path) -> None:
+    """Do what lies in a folder beside those of the FMUs."""
+    batch: Batch = pickle.loads((folder / BATCH).read_bytes())
+    results = [couple(folder.parent, batch, simulation) for simulation in batch.simulations]
     # Complete before the process ends: ending an embedded interpreter is where it may fail.
-    unfinished = place / "unfinished.npz"
-    np.savez(unfinished, **results)
-    unfinished.replace(place / "results.npz")
+    unfinished = folder / "unfinished"
+    unfinished.write_bytes(pickle.dumps(results))
+    unfinished.replace(folder / RESULTS)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,35 +17,32 @@ BEFORE, AFTER = 10, 120
 """Cycles around a reversal of the setpoint in which the quadrant peak is looked for."""
 
 
-@dataclass(frozen=True)
-class Record:
-    """What a run has recorded of each axis, by its name, at the end of each cycle, shape (cycles,); mm or °.
+class Trace(NamedTuple):
+    """What a simulation shows of each axis, by its name, at the end of each cycle, shape (cycles,); mm or °.
 
-    ``tip_error``: of the tool tip as the workpiece sees it, shape (cycles, 3), mm.
+    ``tip_error``: of the tool tip as the workpiece sees it, shape (cycles, 3), mm, or (cycles, 0) if it is not known.
     """
 
     true_position: Mapping[str, Array]
     following_error: Mapping[str, Array]
     tip_error: Array
 
+    @classmethod
+    def of(cls, axes: Sequence[str], recorded: Array) -> Trace:
+        """Return what ``coupling.couple`` has recorded, for axes of these names."""
+        true, lag, tip = np.split(recorded, [len(axes), 2 * len(axes)], axis=1)
+        half = tip.shape[1] // 2
+        by_name = [dict(zip(axes, columns.T, strict=True)) for columns in (true, lag)]
+        return cls(by_name[0], by_name[1], tip[:, :half] - tip[:, half:])
+
 
 @dataclass(frozen=True)
 class Outcome:
-    """The error of one axis, or of the tool tip, in one trial, in µm or ″.
+    """The error of one axis, or of the tool tip, in one trial, in µm or ″ (``unit``).
 
-    Attributes
-    ----------
-    trial : Trial
-    axis : str
-        Its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off.
-    unit : str
-        ``µm`` or ``″``.
-    cycles : array of int
-        The cycles that count.
-    without, compensated : array, shape as cycles
-        Tool error: true position − place where the axis should be.
-    following_error : float
-        Largest in these cycles, with compensation.
+    ``axis``: its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off. ``without`` and ``compensated``:
+    tool error, true position − target, at the ``cycles`` that count. ``following_error``: the largest in these, with
+    compensation.
     """
 
     trial: Trial
@@ -79,65 +77,51 @@ class Outcome:
         return float(max(peaks, default=0.0))
 
 
-def outcomes(machine: Machine, trials: Sequence[Trial], records: Sequence[tuple[Record, Record]]) -> Iterator[Outcome]:
-    """Yield the error of each axis in each trial; ``records``: of the runs without and with compensation."""
+def outcomes(machine: Machine, trials: Sequence[Trial], traces: Sequence[tuple[Trace, Trace]]) -> Iterator[Outcome]:
+    """Yield the error of each axis in each trial; ``traces``: without and with compensation."""
     units = {name_of(axis): shown(axis.unit) for axis in machine.axes}
-    for trial, (without, compensated) in zip(trials, records, strict=True):
+    linear = [name_of(axis) for axis in machine.axes if axis.unit == "mm"]
+    for trial, (without, compensated) in zip(trials, traces, strict=True):
         if trial.kind == VOLUMETRIC:
-            yield from _of_tip(
-                trial, without, compensated, [name_of(axis) for axis in machine.axes if axis.unit == "mm"]
-            )
+            yield from _of_tip(trial, without, compensated, linear)
             continue
         for axis, cycles in trial.watched.items():
-            place, (factor, unit) = trial.place(axis), units[axis]
-            errors = [factor * (record.true_position[axis] - place)[cycles] for record in (without, compensated)]
+            target, (factor, unit) = trial.target(axis), units[axis]
+            errors = [factor * (trace.true_position[axis] - target)[cycles] for trace in (without, compensated)]
             following = factor * float(np.max(np.abs(compensated.following_error[axis][cycles])))
             yield Outcome(trial, axis, unit, cycles, errors[0], errors[1], following)
 
 
-def _of_tip(trial: Trial, without: Record, compensated: Record, linear: Sequence[str]) -> Iterator[Outcome]:
+def _of_tip(trial: Trial, without: Trace, compensated: Trace, linear: Sequence[str]) -> Iterator[Outcome]:
     cycles = trial.watched[TCP]
     factor, unit = shown("mm")
-    errors = [factor * record.tip_error[cycles] for record in (without, compensated)]
+    errors = [factor * trace.tip_error[cycles] for trace in (without, compensated)]
     following = factor * max(float(np.max(np.abs(compensated.following_error[name][cycles]))) for name in linear)
-    for place, k in enumerate("xyz"):
-        yield Outcome(trial, f"{TCP} {k}", unit, cycles, errors[0][:, place], errors[1][:, place], following)
+    for column, k in enumerate("xyz"):
+        yield Outcome(trial, f"{TCP} {k}", unit, cycles, errors[0][:, column], errors[1][:, column], following)
     distances = [np.linalg.norm(error, axis=1) for error in errors]
     yield Outcome(trial, TCP, unit, cycles, distances[0], distances[1], following)
 
 
 def table(results: Sequence[Outcome]) -> str:
     """Return the errors as a table for the terminal."""
-    heads = ("axis", "compensation", "without", "with", "", "left", "following error")
-    rows = [heads]
+    rows: list[tuple[str, ...]] = [("axis", "compensation", "without", "with", "", "left", "following error")]
     for result in results:
-        without, compensated = result.largest
-        rows.append(
-            (
-                result.axis,
-                label(result.trial),
-                f"{without:.2f}",
-                f"{compensated:.2f}",
-                result.unit,
-                f"{100.0 * result.ratio:.1f} %",
-                f"{result.following_error:.2f}",
-            )
-        )
-    widths = [max(len(row[column]) for row in rows) for column in range(len(heads))]
-    left = {0, 1, 4}
-    lines = []
-    for row in rows:
-        cells = [c.ljust(w) if n in left else c.rjust(w) for n, (c, w) in enumerate(zip(row, widths, strict=True))]
-        lines.append("  ".join(cells).rstrip())
-    lines.insert(1, "-" * max(len(line) for line in lines))
+        figures = [f"{figure:.2f}" for figure in (*result.largest, result.following_error)]
+        left = f"{100.0 * result.ratio:.1f} %"
+        rows.append((result.axis, label(result.trial), *figures[:2], result.unit, left, figures[2]))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    layout = "  ".join(f"{{:{side}{width}}}" for side, width in zip("<<>><>>", widths, strict=True))
+    lines = [layout.format(*row).rstrip() for row in rows]
+    lines.insert(1, "-" * max(map(len, lines)))
     return "\n".join(lines)
 
 
 def label(trial: Trial) -> str:
     """Return what a trial is called in the table."""
-    if trial.kind == VOLUMETRIC:
-        return f"volumetric ({motion_of(trial)})"
-    return LABELS[trial.kind]
+    notes = {"all": "diagonal", "friction": "peaks"}
+    note = motion_of(trial) if trial.kind == VOLUMETRIC else notes.get(trial.kind)
+    return f"{trial.kind} ({note})" if note else trial.kind
 
 
 def motion_of(trial: Trial) -> str:
@@ -147,13 +131,3 @@ def motion_of(trial: Trial) -> str:
     (name,) = trial.moving
     travel = np.ptp(trial.setpoints[name].position)
     return f"{'turn' if travel > 300.0 else 'swing'} of {name}"
-
-
-LABELS = {
-    "all": "all (diagonal)",
-    "leadscrew": "leadscrew",
-    "cross": "cross",
-    "plane": "plane",
-    "crosstalk": "crosstalk",
-    "friction": "friction (peaks)",
-}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -33,15 +34,15 @@ def draw(path: Path, machine: Machine, results: Sequence[Outcome], cycle_time: f
     rows = -(-count // columns)
     figure = Figure(figsize=(WIDTH, 0.6 + 4.0 * rows), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
-    places = list(figure.subplots(rows, columns, squeeze=False).flat)
-    for ax, (kind, outcome) in zip(places, panels.items(), strict=False):
-        PANELS[kind](ax, stage, outcome)
-    for ax, trial in zip(places[len(panels) :], volumes.values(), strict=False):
-        _volume(ax, [result for result in results if result.trial is trial])
-    for ax in places[: count - 1]:
+    free = iter(figure.subplots(rows, columns, squeeze=False).flat)
+    for kind, outcome in panels.items():
+        PANELS[kind](next(free), stage, outcome)
+    for trial in volumes.values():
+        _volume(next(free), [result for result in results if result.trial is trial])
+    for ax in figure.axes[: count - 1]:
         ax.grid(alpha=0.3)
-    _summary(places[count - 1], results)
-    for ax in places[count:]:
+    _summary(next(free), results)
+    for ax in free:
         ax.set_axis_off()
     lines = [Line2D([], [], color=color, marker="o", label=label) for color, label in LEGEND]
     figure.legend(handles=lines, loc="outside upper center", ncols=len(lines), frameon=False, fontsize=12)
@@ -61,9 +62,13 @@ def _telling(stage: Stage, results: Sequence[Outcome], kind: str) -> Outcome | N
 
 
 def _curves(ax: Axes, x: Array, result: Outcome, style: str = "-") -> None:
-    for values, color in ((result.without, WITHOUT), (result.compensated, WITH)):
-        ax.plot(x, values, style, color=color, ms=4, lw=1.5)
+    _pair(ax, x, result.without, result.compensated, style)
     ax.set_ylabel(f"error of {result.axis} [{result.unit}]")
+
+
+def _pair(ax: Axes, x: Array, without: Array, compensated: Array, style: str) -> None:
+    for values, color in ((without, WITHOUT), (compensated, WITH)):
+        ax.plot(x, values, style, color=color, ms=4, lw=1.5)
 
 
 def _position(result: Outcome, axis: str) -> Array:
@@ -95,11 +100,11 @@ def _plane(ax: Axes, stage: Stage, result: Outcome) -> None:
     levels = np.unique(lines)
     scale = 0.8 * float(np.min(np.diff(levels))) / result.largest[0]
     for level in levels:
-        row = lines == level
-        x, order = across[row], np.argsort(across[row])
+        row = np.flatnonzero(lines == level)
+        row = row[np.argsort(across[row])]
         ax.axhline(level, color="0.6", lw=0.7)
-        for values, color in ((result.without, WITHOUT), (result.compensated, WITH)):
-            ax.plot(x[order], level + scale * values[row][order], "o-", color=color, ms=4, lw=1.5)
+        heights = [level + scale * errors[row] for errors in (result.without, result.compensated)]
+        _pair(ax, across[row], heights[0], heights[1], "o-")
     bar = 10.0 ** np.floor(np.log10(result.largest[0]))
     right, top = across.max() + 0.12 * np.ptp(across), float(levels[-1])
     ax.plot([right, right], [top, top + scale * bar], color="0.2", lw=3, solid_capstyle="butt")
@@ -123,16 +128,8 @@ def _friction(ax: Axes, stage: Stage, result: Outcome) -> None:
     velocity = result.trial.setpoints[result.axis].velocity[result.cycles]
     reversal = int(np.flatnonzero(velocity[:-1] * velocity[1:] <= 0.0)[0])
     first, last = max(0, reversal - 30), reversal + 90
-    near = Outcome(
-        result.trial,
-        result.axis,
-        result.unit,
-        result.cycles[first:last],
-        result.without[first:last],
-        result.compensated[first:last],
-        result.following_error,
-    )
-    _curves(ax, (near.cycles - result.cycles[reversal]) * stage.cycle_time * 1e3, near)
+    near = replace(result, without=result.without[first:last], compensated=result.compensated[first:last])
+    _curves(ax, (result.cycles[first:last] - result.cycles[reversal]) * stage.cycle_time * 1e3, near)
     ax.set_xlabel("time after the setpoint's reversal [ms]")
     ax.set_title(f"Friction: {result.axis} reverses on a circle")
 
@@ -143,8 +140,7 @@ def _volume(ax: Axes, results: Sequence[Outcome]) -> None:
     styles = dict(zip((f"{TCP} {k}" for k in "xyz"), ("o-", "s--", "^:"), strict=True))
     for result in results:
         if result.axis in styles:
-            for values, color in ((result.without, WITHOUT), (result.compensated, WITH)):
-                ax.plot(x, values, styles[result.axis], color=color, ms=4, lw=1.5)
+            _pair(ax, x, result.without, result.compensated, styles[result.axis])
     lines = [Line2D([], [], color="0.3", marker=s[0], ls=s[1:], ms=4, label=name) for name, s in styles.items()]
     ax.legend(handles=lines, fontsize=9, ncols=len(lines), loc="best")
     ax.margins(y=0.2)
@@ -162,23 +158,20 @@ def _way(trial: Trial, cycles: Cycles) -> tuple[Array, str]:
 
 
 def _summary(ax: Axes, results: Sequence[Outcome]) -> None:
-    for place, result in enumerate(results):
+    for line, result in enumerate(results):
         without, compensated = result.largest
-        ax.plot([compensated, without], [place, place], color="0.75", lw=2, zorder=1)
-        ax.scatter([without, compensated], [place, place], color=[WITHOUT, WITH], s=36, zorder=2)
+        ax.plot([compensated, without], [line, line], color="0.75", lw=2, zorder=1)
+        ax.scatter([without, compensated], [line, line], color=[WITHOUT, WITH], s=36, zorder=2)
         text = f"{100.0 * result.ratio:.1f} %"
-        ax.annotate(text, (without, place), (7, 0), textcoords="offset points", va="center", fontsize=9)
+        ax.annotate(text, (without, line), (7, 0), textcoords="offset points", va="center", fontsize=9)
     ax.set_xscale("log")
     ax.margins(x=0.24)
-    ax.set_yticks(range(len(results)), [f"{result.axis} {_short(result.trial)}" for result in results])
+    shorts = [motion_of(result.trial) if result.trial.kind == VOLUMETRIC else result.trial.kind for result in results]
+    ax.set_yticks(range(len(results)), [f"{r.axis} {short}" for r, short in zip(results, shorts, strict=True)])
     ax.invert_yaxis()
     ax.set_xlabel(f"largest error [{' or '.join(sorted({result.unit for result in results}))}]")
     ax.grid(axis="x", alpha=0.3)
     ax.set_title("Largest errors, and what is left")
-
-
-def _short(trial: Trial) -> str:
-    return motion_of(trial) if trial.kind == VOLUMETRIC else trial.kind
 
 
 PANELS: dict[str, Callable[[Axes, Stage, Outcome], None]] = {

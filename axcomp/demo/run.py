@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -19,11 +20,10 @@ from ..fmu.content import Built
 from ..fmu.native_package import NoCompilerError, package_native
 from ..fmu.package import package_axcomp
 from ..model.machine import CYCLE_TIME, Machine
-from ..plant.fmu import package_plant, read_plant
-from .coupling import COMMANDS, COMPENSATION, PLANT, Job, Recorded, read_results, write_job
-from .evaluation import Outcome, Record, outcomes
-from .trials import VOLUMETRIC, Trial, name_of, trials_of
-from .volume import TOOL_LENGTH, volumetric_trials
+from ..plant.fmu import package_plant, plant_variables
+from .coupling import BATCH, COMMANDS, COMPENSATION, PLANT, RESULTS, Batch, Simulation
+from .evaluation import Outcome, Trace, outcomes
+from .trials import TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
 
 PROCESSES = 2
 """That run the trials side by side."""
@@ -41,13 +41,6 @@ class Demo(NamedTuple):
     note: str = ""
 
 
-class Run(NamedTuple):
-    """One simulation: the commands, shape (cycles, 3 · axes), and the ``enable`` inputs that are false."""
-
-    commands: Array
-    off: tuple[str, ...]
-
-
 def demonstrate(lists: Path, output: Path) -> Demo:
     """Build ``axcomp.fmu`` and ``plant.fmu`` in a folder, couple them and return the errors of all axes.
 
@@ -59,7 +52,7 @@ def demonstrate(lists: Path, output: Path) -> Demo:
     if not lists.exists():
         raise DemoError(f"{lists} does not exist.")
     model = lists if lists.is_dir() else lists.parent
-    variables, _ = read_plant(model)
+    variables = plant_variables(model)
     output.mkdir(parents=True, exist_ok=True)
     built, note = _compensation(lists, output / f"{COMPENSATION}.fmu")
     plant = package_plant(model, output / f"{PLANT}.fmu")
@@ -75,13 +68,14 @@ def demonstrate(lists: Path, output: Path) -> Demo:
         trials += volumetric_trials(machine, CYCLE_TIME)
     if not trials:
         raise DemoError(f"{lists}: no compensation acts, so there is nothing to show.")
-    runs, of_trial = _runs(machine, trials)
+    simulations, of_trial = _simulations(machine, trials)
     with tempfile.TemporaryDirectory(prefix="axcomp_demo_") as temporary:
         folder = Path(temporary)
         for name, path in ((COMPENSATION, built.path), (PLANT, plant)):
             extract(path, folder / name)
-        records = _simulate(folder, machine, runs, TOOL_LENGTH if knows_tip and machine.volumetric else None)
-    pairs = [(records[without], records[compensated]) for without, compensated in of_trial]
+        tool_length = TOOL_LENGTH if knows_tip and machine.volumetric else None
+        traces = _simulate(folder, machine, simulations, tool_length)
+    pairs = [(traces[without], traces[compensated]) for without, compensated in of_trial]
     return Demo(machine, tuple(outcomes(machine, trials, pairs)), note)
 
 
@@ -93,21 +87,20 @@ def _compensation(lists: Path, path: Path) -> tuple[Built, str]:
         return package_axcomp(lists, path), f"{error}\nUntil then axcomp.fmu runs in Python."
 
 
-def _runs(machine: Machine, trials: Sequence[Trial]) -> tuple[list[Run], list[tuple[int, int]]]:
+def _simulations(machine: Machine, trials: Sequence[Trial]) -> tuple[list[Simulation], list[tuple[int, int]]]:
     """Return the simulations that the trials need, and for each trial the ones without and with compensation."""
-    runs: list[Run] = []
+    simulations: list[Simulation] = []
     known: dict[tuple[int, tuple[str, ...]], int] = {}
-    of_trial = []
-    for trial in trials:
-        pair = []
-        for kinds in (trial.off + trial.never_on, trial.never_on):
-            key = (id(trial.setpoints), kinds)
-            if key not in known:
-                known[key] = len(runs)
-                runs.append(Run(_commands(machine, trial), _disabled(machine, kinds)))
-            pair.append(known[key])
-        of_trial.append((pair[0], pair[1]))
-    return runs, of_trial
+
+    def number_of(trial: Trial, kinds: tuple[str, ...]) -> int:
+        key = (id(trial.setpoints), kinds)
+        if key not in known:
+            known[key] = len(simulations)
+            simulations.append(Simulation(_commands(machine, trial), _disabled(machine, kinds)))
+        return known[key]
+
+    pairs = [(number_of(trial, trial.off + trial.never_on), number_of(trial, trial.never_on)) for trial in trials]
+    return simulations, pairs
 
 
 def _commands(machine: Machine, trial: Trial) -> Array:
@@ -122,43 +115,47 @@ def _disabled(machine: Machine, kinds: Sequence[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _simulate(folder: Path, machine: Machine, runs: Sequence[Run], tool_length: float | None) -> list[Record]:
-    """Share the runs out to processes, each of which loads both FMUs; return the records in their order."""
-    shares: list[list[int]] = [[] for _ in range(min(PROCESSES, os.cpu_count() or 1, len(runs)))]
+def _simulate(
+    folder: Path, machine: Machine, simulations: Sequence[Simulation], tool_length: float | None
+) -> list[Trace]:
+    """Share the simulations out to processes, each of which loads both FMUs; return the traces in their order."""
+    shares: list[list[int]] = [[] for _ in range(min(PROCESSES, os.cpu_count() or 1, len(simulations)))]
     load = [0] * len(shares)
-    for index in sorted(range(len(runs)), key=lambda index: -len(runs[index].commands)):
+    for index in sorted(range(len(simulations)), key=lambda index: -len(simulations[index].commands)):
         least = load.index(min(load))
         shares[least].append(index)
-        load[least] += len(runs[index].commands)
+        load[least] += len(simulations[index].commands)
 
-    axes = tuple(name_of(axis) for axis in machine.axes)
-    currents = tuple(name_of(axis) for axis in machine.axes if axis.friction is not None)
+    axes = [name_of(axis) for axis in machine.axes]
+    currents = [name_of(axis) for axis in machine.axes if axis.friction is not None]
     children = []
     for number, share in enumerate(shares):
-        place = folder / f"job{number}"
-        job = Job(axes, currents, CYCLE_TIME, tuple(runs[index].off for index in share), tool_length)
-        write_job(place, job, [runs[index].commands for index in share])
-        with (place / "messages.txt").open("wb") as messages:
-            command = [sys.executable, "-m", f"{__package__}.coupling", str(place)]
+        own = folder / f"batch{number}"
+        own.mkdir()
+        batch = Batch(axes, currents, CYCLE_TIME, tool_length, [simulations[index] for index in share])
+        (own / BATCH).write_bytes(pickle.dumps(batch))
+        with (own / "messages.txt").open("wb") as messages:
+            command = [sys.executable, "-m", f"{__package__}.coupling", str(own)]
             children.append(subprocess.Popen(command, stdout=messages, stderr=messages, env=_environment()))
-    records: list[Record | None] = [None] * len(runs)
+    traces: dict[int, Trace] = {}
     try:
         for number, (child, share) in enumerate(zip(children, shares, strict=True)):
             child.wait()
-            for index, (true, lag, tip) in zip(share, _results(folder / f"job{number}"), strict=True):
-                records[index] = Record(dict(zip(axes, true.T, strict=True)), dict(zip(axes, lag.T, strict=True)), tip)
+            for index, recorded in zip(share, _results(folder / f"batch{number}"), strict=True):
+                traces[index] = Trace.of(axes, recorded)
     finally:
         for child in children:
             child.kill()
             child.wait()
-    return [record for record in records if record is not None]
+    return [traces[index] for index in range(len(simulations))]
 
 
-def _results(place: Path) -> list[Recorded]:
+def _results(folder: Path) -> list[Array]:
     try:
-        return read_results(place)
+        results: list[Array] = pickle.loads((folder / RESULTS).read_bytes())
+        return results
     except FileNotFoundError:
-        messages = (place / "messages.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        messages = (folder / "messages.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines()
         raise DemoError(
             f"The FMUs could not be run: {messages[-1] if messages else 'the process ended early'}."
         ) from None

@@ -2,7 +2,9 @@
 
 Geometric errors are looked at where the axes stand, 60 ms after they arrived, so that following errors are gone; every
 stop is approached from a known side, as in ISO 230-2. Crosstalk is looked at while the master changes its speed and the
-slave moves slowly, friction at the reversals of a circle (ISO 230-4).
+slave moves slowly, friction at the reversals of a circle (ISO 230-4). In the volumetric trials the tool tip goes over a
+body diagonal (ISO 230-6), and over a turn or swing of each rotary axis; it is looked at where the axes stand, and axes
+that do not move stand off the middle, so that all errors act.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from ..engine.motion import Array, Course, Limits, Setpoints, move
 from ..interface.variables import identifier
 from ..kinds import KIND_NAMES, KINDS, Crosstalk, Plane
 from ..model.machine import Axis, Machine
+from ..model.volumetric import LINEAR
 
 Cycles = npt.NDArray[np.intp]
 
@@ -35,6 +38,15 @@ SLOW, FAST = 60.0, 260.0
 LATENCY = 2
 """Cycles by which the drives' reference, the mean of two setpoints, lags the raw setpoint in the coupled FMUs."""
 
+TOOL_LENGTH = 120.0
+"""Of the volumetric trials, mm."""
+ASIDE = 0.65
+"""Where axes stand that do not move, as a share of their range."""
+STOPS_OF_TURN = 24
+STANDSTILL = 0.2
+"""Before the tip is looked at, s: a linear axis that only follows its correction sticks for a while."""
+TURNING = Limits(180.0, 1500.0, 4e4)
+
 VOLUMETRIC = "volumetric"
 TCP = "TCP"
 
@@ -45,16 +57,9 @@ GEOMETRIC = tuple(kind for kind in KINDS if kind != "friction")
 class Trial:
     """A motion that shows the error of some axes.
 
-    Attributes
-    ----------
-    kind : str
-        The compensation it is about; ``all``: all geometric ones together.
-    setpoints : mapping of str to Setpoints
-        What the controller commands each axis, by its name.
-    watched : mapping of str to array of int
-        The cycles at which the error of an axis counts, or that of the tool tip (``TCP``).
-    moving : tuple of str
-        The axes that a volumetric trial moves.
+    ``kind``: the compensation it is about; ``all``: all geometric ones together. ``setpoints``: what the controller
+    commands each axis, by its name. ``watched``: the cycles at which the error of an axis counts, or that of the tool
+    tip (``TCP``). ``moving``: the axes that a volumetric trial moves.
     """
 
     kind: str
@@ -69,15 +74,15 @@ class Trial:
 
     @property
     def never_on(self) -> tuple[str, ...]:
-        """Those that are off in both runs: what moves the tool tip to its place moves an axis away from its own."""
+        """Those that are off in both: what moves the tool tip where it should be moves an axis away from its target."""
         return () if self.kind == VOLUMETRIC else (VOLUMETRIC,)
 
-    def place(self, axis: str) -> Array:
+    def target(self, axis: str) -> Array:
         """Return where an axis should be at the end of each cycle, shape (cycles,): its raw setpoint, delayed."""
         raw = self.setpoints[axis].position
         late = np.concatenate([np.repeat(raw[:1], LATENCY), raw])
-        place: Array = 0.5 * (late[: len(raw)] + late[1 : len(raw) + 1])
-        return place
+        target: Array = 0.5 * (late[: len(raw)] + late[1 : len(raw) + 1])
+        return target
 
 
 def trials_of(machine: Machine, cycle_time: float) -> list[Trial]:
@@ -225,6 +230,37 @@ class Stage:
                     along = [node[error.arguments.index(letters[0])] for node in error.nodes]
                     return min(along), max(along)
         return -100.0, 100.0
+
+
+def volumetric_trials(machine: Machine, cycle_time: float) -> Iterator[Trial]:
+    """Yield the trials of a machine; none if it has no volumetric compensation."""
+    stage = Stage(machine, cycle_time)
+    taking_part = {number: letter for v in machine.volumetric for letter, number in v.axes if letter in v.chain}
+    axes = [axis for axis in machine.axes if axis.number in taking_part]
+    linear = [axis for axis in axes if taking_part[axis.number] in LINEAR]
+    if linear:
+        yield _standing(stage, linear, STOPS, RAPID)
+    for axis in axes:
+        if axis not in linear:
+            # A full turn ends where it began: the seam of the tables lies in between.
+            yield _standing(stage, [axis], STOPS_OF_TURN, TURNING, closed=axis.modulo is not None)
+
+
+def _standing(stage: Stage, axes: Sequence[Axis], stops: int, limits: Limits, *, closed: bool = False) -> Trial:
+    """Return the trial in which axes go together from one end of their ranges to the other, stop by stop."""
+    moving = tuple(name_of(axis) for axis in axes)
+    # A share of the step inside the ends, so that the stops fall between the points of the tables.
+    targets = [_at(stage, moving, (stop + 0.37) / stops) for stop in range(stops + closed)]
+    course = Course({**_at(stage, stage.spans, ASIDE), **targets[0]}, stage.cycle_time)
+    read = []
+    for target in targets:
+        course.move(target, limits)
+        read.append(settle(course, STANDSTILL))
+    return Trial(VOLUMETRIC, course.setpoints(), {TCP: np.array(read)}, moving)
+
+
+def _at(stage: Stage, names: Sequence[str] | Mapping[str, object], share: float) -> dict[str, float]:
+    return {name: low + share * (high - low) for name, (low, high) in stage.spans.items() if name in names}
 
 
 def settle(course: Course, duration: float = SETTLING) -> int:

@@ -16,7 +16,7 @@ import numpy as np
 from ..interface.slot import Slot
 from ..interface.variable import Value, Variable, with_causality
 from ..interface.variables import Naming, by_name, slot_of, variables_of
-from ..lists import Finding, read_machine
+from ..lists import Finding, TypeName, read_machine
 from ..model.machine import CYCLE_TIME, Machine
 from ..native.library import compiled_kernel
 from ..native.runner import CompiledTables, run_compiled
@@ -39,16 +39,9 @@ CHUNK = 4096
 
 @dataclass(frozen=True)
 class Result:
-    """Outputs over a trajectory.
+    """Outputs over a trajectory: float, int or bool by name, shape (n,), and the instants of the cycles, s.
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        Instants of the cycles, s.
-    values : mapping of str to ndarray, shape (n,)
-        Output variables by name: float, int or bool.
-    notices : tuple of str
-        What the run has to say, a sentence each.
+    ``notices``: what the run has to say, a sentence each.
     """
 
     time: NDArray[np.float64]
@@ -89,6 +82,8 @@ class Engine:
         Of the position controller, s.
     naming : str
         ``structured`` or ``flat``, as the FMU's variables.
+    axis_type : str or None
+        As in ``read_machine``.
 
     Attributes
     ----------
@@ -107,13 +102,17 @@ class Engine:
     """
 
     def __init__(
-        self, machine: Machine | str | os.PathLike[str], cycle_time: float = CYCLE_TIME, naming: Naming = "structured"
+        self,
+        machine: Machine | str | os.PathLike[str],
+        cycle_time: float = CYCLE_TIME,
+        naming: Naming = "structured",
+        axis_type: TypeName | None = None,
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
         lists = None
         if not isinstance(machine, Machine):
             lists = machine
-            reading = read_machine(machine)
+            reading = read_machine(machine, axis_type=axis_type)
             machine, self.findings = reading.machine, tuple(reading.findings)
         self.machine = machine
         self.runtime = Runtime(machine, cycle_time)
@@ -179,7 +178,7 @@ class Engine:
         cycles = _length({name: column for name, column in trajectory.items() if name != "time"})
         trajectory, said = self._completed(trajectory)
         given = [self._input(name) for name in trajectory if name not in ("time", COMMAND)]
-        columns = [_column(variable, trajectory[variable.name]) for variable in given]
+        columns = [np.asarray(trajectory[v.name]).astype(type(v.start)) for v in given]
         if not given:
             given = [next(variable for variable in self.variables if variable.causality == "input")]
             columns = [np.full(cycles, self._slot_of(given[0]).get())]
@@ -199,8 +198,10 @@ class Engine:
                 with _naming_row(first):
                     notices += self._cycle(inputs, blocks[first])
                 pieces.append({name: np.array([value]) for name, value in self.get().items()})
+            elif (kernel := compiled_kernel()) is None:
+                pieces.append(self._run_in_python(given, rows))
             else:
-                pieces.append(self._run_piece(given, rows))
+                pieces.append(self._run_compiled(kernel, given, rows))
         values = pieces[0]
         if len(pieces) > 1:
             values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
@@ -215,11 +216,6 @@ class Engine:
         ]
         modulo = [table.modulo_range for table in self.runtime.tables.axis]
         return completed(trajectory, self.variables, self.runtime.tables.cycle_time, before, modulo)
-
-    def _run_piece(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
-        """Run some rows, compiled if possible."""
-        kernel = compiled_kernel()
-        return self._run_in_python(given, columns) if kernel is None else self._run_compiled(kernel, given, columns)
 
     def _run_compiled(
         self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
@@ -294,7 +290,3 @@ def _naming_row(row: int) -> Iterator[None]:
         yield
     except NcError as error:
         raise ValueError(f"command in row {row}: {error}") from error
-
-
-def _column(variable: Variable, values: ArrayLike) -> NDArray[Any]:
-    return np.asarray(values).astype(type(variable.start))

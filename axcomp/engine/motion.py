@@ -26,13 +26,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Setpoints:
-    """What a controller commands one axis.
-
-    Attributes
-    ----------
-    position, velocity, acceleration : array, shape (cycles,)
-        In mm or °, per s and s².
-    """
+    """What a controller commands one axis, shape (cycles,) each, in mm or °, per s and s²."""
 
     position: Array
     velocity: Array
@@ -69,19 +63,9 @@ def move(start: float, end: float, cycle_time: float, limits: Limits) -> Array:
 
 
 class Course:
-    """A motion of several axes, put together piece by piece.
+    """A motion of several axes, put together piece by piece from where each stands at first, mm or °.
 
-    Parameters
-    ----------
-    start : mapping of str to float
-        Where each axis stands at first, mm or °.
-    cycle_time : float
-        s.
-
-    Attributes
-    ----------
-    cycles : int
-        Length so far; the first cycle is the start.
+    ``cycles``: its length so far; the first cycle is the start.
     """
 
     def __init__(self, start: Mapping[str, float], cycle_time: float) -> None:

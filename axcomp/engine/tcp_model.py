@@ -7,21 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..kernel.record import zeros
 from ..kernel.volumetric_errors import errors_at
-from ..kernel.volumetric_model import FRAME, carry_to_workpiece
+from ..kernel.volumetric_model import FRAME, carry_to_workpiece, correction_at, correction_with
 from ..model.machine import Axis, AxisType, Machine
 from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
 from ..runtime.compile import compile_tables
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+from .motion import Array
 
 _STEP = 1e-4
 """mm and rad by which errors are changed to see what they do; the model is all but linear in them."""
@@ -30,10 +25,7 @@ _STEP = 1e-4
 class TcpModel:
     """A machine with a volumetric compensation whose errors can be given.
 
-    Parameters
-    ----------
-    volumetric : Volumetric
-        Its chain, centres, directions, offsets and so on, and the errors that are known.
+    ``volumetric`` has its chain, centres, directions, offsets and so on, and the errors that are known.
     """
 
     def __init__(self, volumetric: Volumetric) -> None:
@@ -74,14 +66,35 @@ class TcpModel:
             row[:] = [actual[d] - nominal[d] for d in range(len(LINEAR))]
         return found
 
-    def derivatives(self, places: Array, tool_lengths: Array, errors: Array, which: Sequence[int]) -> Array:
-        """Return what each of some errors does to the tool tip, (n, 3, errors), mm per mm or rad."""
+    def corrections(self, places: Array, tool_lengths: Array, errors: Array | None = None) -> Array:
+        """Return what X, Y and Z must move so that the tool tip is where it should be, (n, 3), mm.
+
+        ``errors`` (n, 72) are those at the places; without them the known ones count where the axes are moved to.
+        Whether the lists negate a correction or leave it out is not in it. nan where the position is singular.
+        """
+        found = np.full((len(places), len(LINEAR)), np.nan)
+        given = [None] * len(places) if errors is None else errors.tolist()
+        for row, place, length, wrong in zip(found, places.tolist(), tool_lengths.tolist(), given, strict=True):
+            correction = zeros(len(LINEAR))
+            if wrong is None:
+                usable = correction_at(self._pool, self._table, place, length, [0] * len(ERRORS), correction)
+            else:
+                usable = correction_with(self._table, place, length, wrong, correction)
+            if usable:
+                row[:] = correction
+        return found
+
+    def derivatives(
+        self, places: Array, tool_lengths: Array, errors: Array, which: Sequence[int], *, corrections: bool = False
+    ) -> Array:
+        """Return what each of some errors does to the tool tip or the corrections, (n, 3, errors), mm per mm or rad."""
+        effects = self.corrections if corrections else self.deviations
         found = np.empty((len(places), len(LINEAR), len(which)))
         for column, error in enumerate(which):
             sides = []
             for step in (_STEP, -_STEP):
                 changed = errors.copy()
                 changed[:, error] += step
-                sides.append(self.deviations(places, tool_lengths, changed))
+                sides.append(effects(places, tool_lengths, changed))
             found[:, :, column] = (sides[0] - sides[1]) / (2.0 * _STEP)
         return found

@@ -30,14 +30,9 @@ class InputError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class InputFile:
-    """Inputs from a table with a column for each.
+    """Inputs from a table with a column for each, shape (rows,), by name.
 
-    Attributes
-    ----------
-    columns : mapping of str to array, shape (rows,)
-        By name, without time.
-    time : array, shape (rows,), or None
-        Ascending, s; None: a row a cycle.
+    ``time``: ascending, s, shape (rows,); None: a row a cycle.
     """
 
     columns: Mapping[str, Array]
@@ -58,8 +53,8 @@ class InputFile:
         exact = np.abs(at[held] - instants) <= 1e-6 * cycle_time
         found: Columns = {}
         for name, values in self.columns.items():
-            between = values[held] if _switches(values) else np.interp(instants, at, values)
-            found[name] = np.where(exact, values[held], between)
+            switches = np.isin(values, (0.0, 1.0)).all()
+            found[name] = np.where(exact | switches, values[held], np.interp(instants, at, values))
         return found
 
 
@@ -77,17 +72,9 @@ class Sine:
 class Motion:
     """A motion that is generated.
 
-    Attributes
-    ----------
-    start : mapping of str to float
-        Where the axes of the moves begin, mm or °.
-    moves : sequence of mappings of str to float
-        Targets by axis, with ``velocity``, ``acceleration``, ``jerk`` of their own; or ``dwell`` in s. Over and over
-        again until the duration is over.
-    sines : mapping of str to Sine
-        By axis.
-    limits : Limits
-        Of the moves that say nothing else.
+    ``start``: where the axes of the moves begin, mm or °. ``moves``: targets by axis, with ``velocity``,
+    ``acceleration``, ``jerk`` of their own; or ``dwell`` in s; over and over again until the duration is over.
+    ``sines``: by axis. ``limits``: of the moves that say nothing else.
     """
 
     start: Mapping[str, float] = field(default_factory=dict)
@@ -114,11 +101,8 @@ class Motion:
         at = 2.0 * np.pi * np.arange(cycles) * cycle_time
         for axis, sine in self.sines.items():
             angle, speed = sine.frequency * at + np.radians(sine.phase), 2.0 * np.pi * sine.frequency
-            setpoints[axis] = Setpoints(
-                sine.centre + sine.amplitude * np.sin(angle),
-                sine.amplitude * speed * np.cos(angle),
-                -sine.amplitude * speed**2 * np.sin(angle),
-            )
+            swing, rate = sine.amplitude * np.sin(angle), sine.amplitude * speed * np.cos(angle)
+            setpoints[axis] = Setpoints(sine.centre + swing, rate, -sine.amplitude * speed**2 * np.sin(angle))
         found: Columns = {}
         for axis, commands in setpoints.items():
             found[f"{axis}.{_SETPOINT}"] = commands.position[:cycles]
@@ -155,13 +139,51 @@ def completed(columns: Columns, known: set[str], cycle_time: float) -> Columns:
     return found
 
 
-def read_input(path: Path) -> InputFile:
-    """Read a table with the inputs' names in its first row, as FMPy takes it.
+@dataclass(frozen=True)
+class TextTable:
+    """A table as text; numbers are made of the columns that are asked for.
+
+    Attributes
+    ----------
+    path : Path
+    names : tuple of str
+        Of the columns, each once.
+    lines : tuple of int
+        Where each row stands.
+    rows : tuple of sequences of str
+        At least one, all as long as ``names``.
+    comma : bool
+        Commas stand for decimal points, for they do not separate cells.
+    """
+
+    path: Path
+    names: tuple[str, ...]
+    lines: tuple[int, ...]
+    rows: tuple[Sequence[str], ...]
+    comma: bool
+
+    def numbers(self, place: int, name: str) -> Array:
+        """Return a column, shape (rows,); InputError, with ``name`` as what it is, for a cell that is no number."""
+        return np.array([self._number(line, name, row[place]) for line, row in zip(self.lines, self.rows, strict=True)])
+
+    def _number(self, line: int, name: str, cell: str) -> float:
+        word = cell.strip().lower()
+        try:
+            value = _BOOLEANS[word] if word in _BOOLEANS else float(word.replace(",", ".") if self.comma else word)
+        except ValueError:
+            raise InputError(f"{self.path}:{line}: {cell!r} is no number, as {name} has to be.") from None
+        if name == TIME and not math.isfinite(value):
+            raise InputError(f"{self.path}:{line}: {cell!r} is no time in s.")
+        return value
+
+
+def read_table(path: Path) -> TextTable:
+    """Read a table with names in its first row; cells are separated by semicolons, tabs or commas.
 
     Raises
     ------
     InputError
-        The file cannot be read, a row is incomplete, a cell is no number, or time does not ascend.
+        The file cannot be read, a row is incomplete, or there is none.
     """
     try:
         text = decode(path.read_bytes())
@@ -169,9 +191,10 @@ def read_input(path: Path) -> InputFile:
         raise InputError(f"{path}: The file cannot be read: {error.strerror or error}.") from None
     if text is None:
         raise InputError(f"{path}: The file is no text.")
-    separator = ";" if ";" in text.split("\n", 1)[0] else ","
+    separator = next((one for one in ";\t" if one in text.split("\n", 1)[0]), ",")
     names: list[str] = []
-    rows: list[list[float]] = []
+    rows: list[list[str]] = []
+    lines: list[int] = []
     for line, cells in enumerate(csv.reader(io.StringIO(text), delimiter=separator), 1):
         if not any(cell.strip() for cell in cells):
             continue
@@ -182,32 +205,29 @@ def read_input(path: Path) -> InputFile:
             continue
         if len(cells) != len(names):
             raise InputError(f"{path}:{line}: There are {len(cells)} cells for {len(names)} columns.")
-        rows.append([_number(path, line, name, cell) for name, cell in zip(names, cells, strict=True)])
+        rows.append(cells)
+        lines.append(line)
     if not rows:
         raise InputError(f"{path}: There is no row of inputs in it.")
-    table = np.array(rows)
-    columns = {name: table[:, place] for place, name in enumerate(names)}
+    return TextTable(path, tuple(names), tuple(lines), tuple(rows), separator != ",")
+
+
+def read_input(path: Path) -> InputFile:
+    """Read a table with the inputs' names in its first row, as FMPy takes it.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, a row is incomplete, a cell is no number, or time does not ascend.
+    """
+    table = read_table(path)
+    columns = {name: table.numbers(place, name) for place, name in enumerate(table.names)}
     time = columns.pop(TIME, None)
     if not columns:
         raise InputError(f"{path}: There is no input besides {TIME}.")
     if time is not None and (np.diff(time) <= 0.0).any():
         raise InputError(f"{path}: {TIME} must ascend from row to row.")
     return InputFile(columns, time)
-
-
-def _number(path: Path, line: int, name: str, cell: str) -> float:
-    word = cell.strip().lower()
-    try:
-        value = _BOOLEANS[word] if word in _BOOLEANS else float(word)
-    except ValueError:
-        raise InputError(f"{path}:{line}: {cell!r} is no number, as {name} has to be.") from None
-    if name == TIME and not math.isfinite(value):
-        raise InputError(f"{path}:{line}: {cell!r} is no time in s.")
-    return value
-
-
-def _switches(values: Array) -> bool:
-    return bool(np.isin(values, (0.0, 1.0)).all())
 
 
 def _cycles(duration: float, cycle_time: float) -> int:

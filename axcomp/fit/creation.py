@@ -6,22 +6,13 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
-from ..engine.motion import Array
 from ..lists.saving import write_whole
-from ..model.quantity import shown
-from .target_list import TargetList
-from .thinning import Places, closest, deviation, fewest
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-RESOLUTION = 1e-4
-"""What positions and corrections in a list count in, mm or °."""
 
 MEASURED, PREDICTED, LEFT_OUT = "measured", "predicted", "leave one run out"
 """States that figures are given for: without the new table, with it, and each run with a table made of the others."""
@@ -31,32 +22,27 @@ class CannotCreateError(ValueError):
     """No table can be made as asked for; one sentence."""
 
 
-@dataclass(frozen=True)
-class Options:
-    """How a table is made; each kind looks at what concerns it.
+class Report(NamedTuple):
+    """What came of it.
 
     Attributes
     ----------
-    bound : float or None
-        How far it may be from the measured means, in the unit of the deviations; None: as close as its size allows.
-    max_points : int or None
-        Entries the list is to reserve; None: those it reserves already, else the controller's default.
-    on_top : bool
-        The compensation acted during the measurement: what was measured is what it left.
-    one_sided : bool
-        Leadscrew: one curve for both directions, the mean.
-    masters : (int, int)
-        Logical numbers of the master or masters (cross, plane; crosstalk: the accelerating axis); 0: as the list says.
-    adaptation : (int, int)
-        Crosstalk: logical numbers of the adaptation axes; 0: as the list says.
+    sentences, notes : tuple of str
+        How good it is, and what else should be known.
+    rows : tuple of tuple of str
+        Of a table of what was found, the first row its header; empty where the list says it all.
+    details : mapping of str to object
+        What else was found, for JSON.
     """
 
-    bound: float | None = None
-    max_points: int | None = None
-    on_top: bool = False
-    one_sided: bool = False
-    masters: tuple[int, int] = (0, 0)
-    adaptation: tuple[int, int] = (0, 0)
+    sentences: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+    rows: tuple[tuple[str, ...], ...] = ()
+    details: Mapping[str, Any] = MappingProxyType({})
+
+    def noted(self, *notes: str) -> Report:
+        """Return the same with more notes; empty ones do not count."""
+        return self._replace(notes=(*self.notes, *filter(None, notes)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,12 +53,10 @@ class Creation:
     ----------
     kind : str
         ``leadscrew``, ``cross``, …
-    compensation : Leadscrew, Cross, Plane, Crosstalk or Friction
+    compensation : Compensation or Volumetric
         What it says, in mm or °.
-    path : Path
-        The list.
-    data : bytes
-        All of it, with the new table.
+    files : mapping of Path to bytes
+        The list, all of it, with the new table; behind it what else changes.
     points, capacity : int
         Entries of the table, and how many the controller takes.
     deviation : float
@@ -83,30 +67,44 @@ class Creation:
         For each state (``MEASURED``, ``PREDICTED``, ``LEFT_OUT``) the figures by name.
     labels : mapping of str to str
         Name of each figure → how it is shown.
-    notes : tuple of str
-        What else should be known.
+    report : Report
     draw : callable
         Draws measurement, table and what is left into axes.
     """
 
     kind: str
     compensation: Any
-    path: Path
-    data: bytes
+    files: Mapping[Path, bytes]
     points: int
     capacity: int
     deviation: float
     unit: str
     figures: Mapping[str, Mapping[str, float]]
     labels: Mapping[str, str]
-    notes: tuple[str, ...] = ()
+    report: Report
     draw: Callable[[Axes], None] = field(repr=False, default=lambda _: None)
 
-    def write(self, path: str | Path | None = None) -> Path:
-        """Write the list where it was read or elsewhere, whole or not at all; return where it is."""
-        target = self.path if path is None else Path(path)
-        write_whole(target, self.data)
-        return target
+    @property
+    def path(self) -> Path:
+        """The list."""
+        return next(iter(self.files))
+
+    @property
+    def data(self) -> bytes:
+        """All of the list, with the new table."""
+        return self.files[self.path]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What else should be known."""
+        return self.report.notes
+
+    def write(self, path: str | Path | None = None) -> list[Path]:
+        """Write everything where it was read, or the list alone elsewhere, whole or not at all; return what was."""
+        files = self.files if path is None else {Path(path): self.data}
+        for file, data in files.items():
+            write_whole(file, data)
+        return list(files)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw measurement, table and what is left; return the axes."""
@@ -131,107 +129,5 @@ class Creation:
                 for state, figures in self.figures.items()
             },
             "notes": list(self.notes),
+            **self.report.details,
         }
-
-
-def put_on_top(target: TargetList, kind: str, options: Options) -> Any:
-    """Return the compensation that acted during the measurement, None where none is said to have.
-
-    Raises
-    ------
-    CannotCreateError
-        One is said to have acted, but none of the kind does.
-    """
-    before = target.present(kind) if options.on_top else None
-    if options.on_top and before is None:
-        raise CannotCreateError(f"no {kind} compensation of this axis acts, so nothing can be put on top of it")
-    return before
-
-
-def rounded(values: Array) -> Array:
-    """Return positions or corrections in mm or ° as a list can hold them; no −0."""
-    result: Array = np.round(values / RESOLUTION) * RESOLUTION
-    return np.round(result, 10) + 0.0
-
-
-def lost_by_rounding(unit: str) -> float:
-    """Return how far rounding changes a value in ``mm`` or ``deg``, in µm or ″."""
-    return 0.5 * RESOLUTION * shown(unit).factor
-
-
-def listed(values: Array, unit: str) -> Array:
-    """Return corrections in µm or ″, of an axis that counts in ``mm`` or ``deg``, as a list can hold them."""
-    factor = shown(unit).factor
-    return rounded(values / factor) * factor
-
-
-def chosen_points(
-    positions: Array, curves: Array, capacity: int, bound: float | None, unit: str, rounding: float
-) -> Places:
-    """Return the places of the points a table is to have.
-
-    Parameters
-    ----------
-    positions : array, shape (m,)
-        Where the curves were measured, ascending.
-    curves : array, shape (k, m)
-        In ``unit``.
-    capacity : int
-        Points the controller takes.
-    bound : float or None
-        How far the rounded table may be from the measured curves; None: as close as the capacity allows.
-    unit : str
-        For the sentence.
-    rounding : float
-        How far rounding may change a value, in ``unit``.
-
-    Raises
-    ------
-    CannotCreateError
-        The bound cannot be kept with so many points, or not with values of the list's resolution.
-    """
-    if bound is None:
-        return closest(positions, curves, capacity)
-    if bound < rounding:
-        raise CannotCreateError(f"values are rounded to {2 * rounding:g} {unit}, so {bound:g} {unit} cannot be kept")
-    places = fewest(positions, curves, bound - rounding)
-    if len(places) > capacity:
-        least = deviation(positions, curves, closest(positions, curves, capacity)) + rounding
-        raise CannotCreateError(
-            f"{bound:g} {unit} take {len(places)} points, but the list has room for {capacity}, "
-            f"which keep {least:.2f} {unit}"
-        )
-    return places
-
-
-def leave_one_run_out(
-    runs: npt.NDArray[np.int64], left: Callable[[npt.NDArray[np.bool_], npt.NDArray[np.bool_]], Array]
-) -> Array | None:
-    """Return what is left of every reading by a table made without its run; None with a single run.
-
-    Parameters
-    ----------
-    runs : array, shape (n,)
-        Run of each reading.
-    left : callable
-        Takes which readings to make the table of and which to apply it to, returns what is left of the latter.
-    """
-    numbers = np.unique(runs)
-    if len(numbers) < 2:
-        return None
-    result = np.empty(len(runs))
-    for number in numbers:
-        result[runs == number] = left(runs != number, runs == number)
-    return result
-
-
-def spread_figures(deviations: Array) -> dict[str, float]:
-    """Return the largest amount, the whole range and the root mean square of deviations."""
-    return {
-        "largest": float(np.max(np.abs(deviations))),
-        "range": float(np.ptp(deviations)),
-        "rms": float(np.sqrt(np.mean(deviations**2))),
-    }
-
-
-SPREAD_LABELS = {"largest": "largest", "range": "range", "rms": "root mean square"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from ..kinds import KINDS
 from ..kinds.parameter import ListKind, Severity, key_of
@@ -41,6 +41,7 @@ class TargetList:
 
     Attributes
     ----------
+    list_kind : ListKind
     path : Path
     exists : bool
         False: it will be made.
@@ -56,6 +57,8 @@ class TargetList:
         Unit of the axis' positions, "" where no axis list says it.
     """
 
+    list_kind: ClassVar = ListKind.COMPENSATION
+
     def __init__(self, path: str | Path, number: int | None = None, name: str = "") -> None:
         """Open a list; ``number`` and ``name`` of the axis are for one that does not exist yet.
 
@@ -69,15 +72,15 @@ class TargetList:
         self.reading: Reading | None = None
         self.axis: Axis | None = None
         self.unit = ""
-        self._document = self._read() if self.exists else Document(path, kind=ListKind.COMPENSATION)
+        self._document = self._read(number) if self.exists else Document(path, kind=self.list_kind)
         self.values = self._document.values
         written = self.values.integer("kopf.achs_nr")
         if not written and not number:
             sentence = "The list does not say which axis it is for (kopf.achs_nr); give the axis' logical number."
-            raise MeasurementError(str(path), 0, sentence)
+            raise MeasurementError(str(self.path), 0, sentence)
         if written and number and written != number:
             line = self.values.line("kopf.achs_nr")
-            raise MeasurementError(str(path), line, f"The list is for axis {written}, not {number}.")
+            raise MeasurementError(str(self.path), line, f"The list is for axis {written}, not {number}.")
         self.number = written or number or 0
         self._header = {} if written else {"kopf.achs_nr": str(self.number)}
         if name and not written:
@@ -87,21 +90,27 @@ class TargetList:
             if self.axis is not None and self._is_named():
                 self.unit = self.axis.unit
 
-    def _read(self) -> Document:
+    def _read(self, number: int | None) -> Document:  # noqa: ARG002
         """Return the list, read with the machine whose start-up list beside it names it, else alone."""
         if not self.path.is_file():
             raise MeasurementError(str(self.path), 0, "The list cannot be read: it is no file.")
-        siblings = self.path.parent.iterdir()
-        start_up = next((entry for entry in siblings if entry.name.lower() == START_UP_NAME), None)
-        self.reading = None if start_up is None else read_machine(start_up)
+        self.reading = self._machine_in(self.path.parent)
         if self.reading is None or not self._is_named():
             self.reading = read_machine(self.path)
-        document = next((one for path, one in self.reading.documents.items() if self._is_this(path)), None)
+        return self._document_of(self.reading)
+
+    @staticmethod
+    def _machine_in(folder: Path) -> Reading | None:
+        start_up = next((entry for entry in folder.iterdir() if entry.name.lower() == START_UP_NAME), None)
+        return None if start_up is None else read_machine(start_up)
+
+    def _document_of(self, reading: Reading) -> Document:
+        document = next((one for path, one in reading.documents.items() if self._is_this(path)), None)
         if document is None or not document.is_text:
-            about = next(finding for finding in self.reading.findings if self._is_this(finding.file))
+            about = next(finding for finding in reading.findings if self._is_this(finding.file))
             raise MeasurementError(str(self.path), 0, about.message.replace("The file", "The list"))
-        same = document.kind is ListKind.COMPENSATION
-        return document if same else Document(self.path, document.data, ListKind.COMPENSATION)
+        same = document.kind is self.list_kind
+        return document if same else Document(self.path, document.data, self.list_kind)
 
     def _is_named(self) -> bool:
         """Tell whether the start-up list names this one."""
@@ -165,13 +174,18 @@ class TargetList:
         }
         keys = {key_of(name) for name in owned}
         new = [line for line in lines.text().split("\n") if key_of(line.partition(" ")[0]) in keys]
+        document = self._with_header()
+        document.replace_entries(new, owned, how.title, self._rows_stay(kind, compensation))
+        self._check(kind, compensation, document, max_points is not None)
+        return document.to_bytes()
+
+    def _with_header(self) -> Document:
+        """Return the list that says which axis it is for."""
         document = self._document.copy()
         if self._header:
             header = [f"{name:<40} {value}" for name, value in self._header.items()]
             document.replace_entries(header, self._header, "Axis")
-        document.replace_entries(new, owned, how.title, self._rows_stay(kind, compensation))
-        self._check(kind, compensation, document, max_points is not None)
-        return document.to_bytes()
+        return document
 
     @staticmethod
     def _is_owned(name: str, kind: str, with_max_points: bool) -> bool:
@@ -199,7 +213,7 @@ class TargetList:
             axes.add(AxisSettings(self.number), values.file, 0, "")
         return KINDS[kind].read(TableReader(values, axes.get(self.number), axes, findings))
 
-    def _check(self, kind: str, intended: Any, document: Document, with_max_points: bool) -> None:
+    def _check(self, kind: str, intended: Any, document: Document, with_max_points: bool = False) -> None:
         """Read the new list and compare: a list with a damaged group could hide what is put into it."""
         findings = Findings()
         found = self._parsed(kind, document.values, findings)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,11 +12,12 @@ from scipy.optimize import least_squares
 
 from ..engine.motion import Array
 from ..engine.tcp_model import TcpModel
+from ..measurement.columns import ANGLES, LENGTHS, Column, Columns
+from ..measurement.readings import RUN, Readings
 from ..model.quantity import shown
-from ..model.volumetric import ERRORS, ErrorTable, Volumetric
+from ..model.volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric
 from .creation import CannotCreateError
 from .volumetric_basis import FULL_TURN, Redundancy, Selection, Sought, sought_errors
-from .volumetric_model import TcpDeviations
 
 NODES_MAX = 11
 """Nodes of a component error unless more or fewer are asked for."""
@@ -23,6 +25,42 @@ NODES_MAX = 11
 MICRO = shown("mm").factor
 COVERAGE = 2.0
 """Factor k of expanded uncertainties."""
+
+_DEVIATIONS = tuple(Column(f"d{letter.lower()}", LENGTHS, "um") for letter in LINEAR)
+_POSITIONS = (
+    *(Column(letter.lower(), LENGTHS, "mm") for letter in LINEAR),
+    *(Column(letter.lower(), ANGLES, "deg", optional=True) for letter in ROTARY),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class TcpDeviations(Readings):
+    """Measured deviations of the tool tip, actual − nominal on the workpiece, in any order.
+
+    Attributes
+    ----------
+    positions : array, shape (n, 6)
+        Of X, Y, Z, A, B, C, mm and °; 0 where an axis is not given.
+    tool_lengths : array, shape (n,)
+        mm.
+    deviations : array, shape (n, 3)
+        In X, Y, Z of the workpiece, µm.
+    given : str
+        Letters of the axes whose positions the file gives.
+    """
+
+    positions: Annotated[Array, *_POSITIONS]
+    tool_lengths: Annotated[Array, Column("tool_length", LENGTHS, "mm", optional=True)]
+    deviations: Annotated[Array, *_DEVIATIONS]
+    runs: Annotated[npt.NDArray[np.int64], RUN]
+    given: str = LETTERS
+    source: str = ""
+
+    @classmethod
+    def about(cls, columns: Columns) -> dict[str, Any]:
+        """Return which axes are given."""
+        given = "".join(letter for letter in LETTERS if letter.lower() in columns.values)
+        return {**super().about(columns), "given": given}
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,14 +220,3 @@ class Identifier:
             errors[:, error] += weight[rows] @ column
         modelled = self._model.deviations(self._places[rows], self._measurement.tool_lengths[rows], errors)
         return self._measurement.deviations[rows] - modelled * MICRO
-
-
-def identify(
-    measurement: TcpDeviations,
-    volumetric: Volumetric,
-    names: Sequence[str] | None = None,
-    nodes_max: int = NODES_MAX,
-    scatter: float | None = None,
-) -> Identification:
-    """Return the errors with which the model deviates as was measured: see ``Identifier``."""
-    return Identifier(measurement, volumetric, names, nodes_max, scatter).fit()

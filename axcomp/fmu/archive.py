@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import io
 import os
 import uuid
 import zipfile
@@ -50,24 +51,24 @@ def generation_date() -> str:
 
 
 def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
-    """Write an archive; the model description comes first.
+    """Write an archive as ``write_file`` does; the model description comes first."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as archive:
+        for name in sorted(files, key=lambda name: (name != "modelDescription.xml", name)):
+            entry = zipfile.ZipInfo(name, DATE)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.create_system = UNIX
+            entry.external_attr = MODE
+            archive.writestr(entry, files[name], compresslevel=LEVEL)
+    write_file(output, packed.getvalue())
 
-    Raises
-    ------
-    BuildError
-        If the file cannot be written. One that was there before stays as it is then.
-    """
-    names = sorted(files, key=lambda name: (name != "modelDescription.xml", name))
+
+def write_file(output: Path, data: bytes) -> None:
+    """Write a file and its folders; BuildError if that fails: one that was there before stays as it is then."""
     unfinished = output.with_name(f"{output.name}.{os.getpid()}.part")
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
-        with zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as archive:
-            for name in names:
-                entry = zipfile.ZipInfo(name, DATE)
-                entry.compress_type = zipfile.ZIP_DEFLATED
-                entry.create_system = UNIX
-                entry.external_attr = MODE
-                archive.writestr(entry, files[name], compresslevel=LEVEL)
+        unfinished.write_bytes(data)
         unfinished.replace(output)
     except OSError as error:
         raise BuildError(f"{output} cannot be written: {error.strerror or error}") from None

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..interface.variable import Variable
 from ..interface.variables import Naming, identifier, variables_of
 from ..kinds import CompileError
-from ..lists import Finding, Reading, read_machine
+from ..lists import Finding, Reading, TypeName, read_machine
 from ..model.machine import Machine
 from ..runtime.compile import Compiled, compile_tables
 from .archive import BuildError, generation_date
@@ -26,11 +26,20 @@ PACKAGE = Path(__file__).resolve().parents[1]
 
 
 class Built(NamedTuple):
-    """A file that was written from the lists of a machine."""
+    """What a machine's lists give for its FMU, and the file that was written from them.
 
-    path: Path
+    The machine has at least one axis. The description lacks what depends on the kind of FMU. ``start`` is what
+    ``read_machine`` must read in ``resources``, ``lists`` the contents by path there; ``path`` is the file, once it is
+    written.
+    """
+
     reading: Reading
+    compiled: Compiled
     variables: tuple[Variable, ...]
+    description: Description
+    start: str
+    lists: Mapping[str, bytes]
+    path: Path = Path()
 
     @property
     def machine(self) -> Machine:
@@ -43,38 +52,9 @@ class Built(NamedTuple):
         return self.reading.findings
 
 
-class Content(NamedTuple):
-    """What a machine's lists give for its FMU.
-
-    Attributes
-    ----------
-    reading : Reading
-        Of a machine with at least one axis.
-    compiled : Compiled
-        Tables of the machine.
-    variables : tuple of Variable
-        The one list.
-    description : Description
-        Without what depends on the kind of FMU.
-    place : str
-        Of the lists in ``resources``: what ``read_machine`` must read there.
-    lists : mapping of str to bytes
-        Path in ``resources`` → contents.
-    """
-
-    reading: Reading
-    compiled: Compiled
-    variables: tuple[Variable, ...]
-    description: Description
-    place: str
-    lists: Mapping[str, bytes]
-
-    def built(self, path: Path) -> Built:
-        """Return what a builder tells about the file it has written."""
-        return Built(path, self.reading, self.variables)
-
-
-def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured") -> Content:
+def read_content(
+    lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured", axis_type: TypeName | None = None
+) -> Built:
     """Read and compile the lists of a machine.
 
     Raises
@@ -82,7 +62,7 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
     BuildError
         If there is no axis in them, or they cannot be run or packed.
     """
-    reading = read_machine(lists)
+    reading = read_machine(lists, axis_type=axis_type)
     machine = reading.machine
     if not machine.axes:
         raise BuildError("\n".join([*map(str, reading.findings), f"{lists}: there is no axis in these lists."]))
@@ -100,7 +80,7 @@ def read_content(lists: str | os.PathLike[str], cycle_time: float, naming: Namin
         generated=generation_date(),
     )
     variables = variables_of(machine, naming, cycle_time)
-    return Content(reading, compiled, variables, description, *packed_lists(reading))
+    return Built(reading, compiled, variables, description, *packed_lists(reading))
 
 
 def output_path(output: str | os.PathLike[str], name: str) -> Path:

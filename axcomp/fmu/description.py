@@ -40,24 +40,10 @@ STEPS = 1000
 class Description:
     """What an FMU says about itself, apart from its variables.
 
-    Attributes
-    ----------
-    name : str
-        Name of the model, and identifier of its binaries.
-    text : str
-        One sentence about it.
-    step_size : float
-        Recommended communication step, s.
-    version : str
-        Version of the software it comes from.
-    naming : str
-        ``structured`` or ``flat``.
-    generated : str
-        Date and time of generation, ISO 8601 ending in ``Z``.
-    capabilities : mapping of str to bool
-        Further attributes of ``CoSimulation``.
-    source_files : sequence of str
-        Files in ``sources`` to compile; none: it comes without sources.
+    ``name`` is that of the model and of its binaries, ``text`` a sentence about it, ``step_size`` the recommended
+    communication step in s, ``version`` that of the software it comes from, ``naming`` ``structured`` or ``flat``,
+    ``generated`` date and time in ISO 8601 ending in ``Z``. ``capabilities`` are further attributes of
+    ``CoSimulation``, ``source_files`` those in ``sources`` to compile; none: it comes without sources.
     """
 
     name: str

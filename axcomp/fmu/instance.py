@@ -51,21 +51,10 @@ def guarded(
 
 
 class Instance:
-    """An instance of the FMU.
+    """An instance of the FMU: the machine in operation, and the variables that are not the kernel's (``controls``).
 
-    Parameters
-    ----------
-    resources : str
-        Path of the FMU's ``resources``.
-    log : callable
-        Takes a severity and one line of text without ``%``.
-
-    Attributes
-    ----------
-    runtime : Runtime
-        The machine in operation.
-    controls : Controls
-        The variables that are not the kernel's.
+    ``resources`` is the path of the FMU's folder of this name; ``log`` takes a severity and one line of text without
+    ``%``.
     """
 
     def __init__(self, resources: str, log: Callable[[Severity, str], None]) -> None:
@@ -101,7 +90,7 @@ class Instance:
 
     def _read(self, path: Path) -> tuple[Machine, list[str], int]:
         """Return the machine of a list, what does not fit the variables, and the number of errors found."""
-        reading = read_machine(path)
+        reading = read_machine(path, axis_type=self._interface.axis_type)
         findings = reading.findings
         for finding in findings[:FINDINGS_MAX]:
             self.tell(finding.severity, str(finding))

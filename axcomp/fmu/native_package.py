@@ -10,25 +10,17 @@ from functools import cache
 from pathlib import Path
 
 from ..interface.variables import Naming
+from ..lists import TypeName
 from ..model.companions import fmu_sources
 from ..model.machine import CYCLE_TIME
 from ..native.compiler import PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
 from ..native.image import image_of, image_source
-from .archive import BuildError, content_guid, file_bytes, write_fmu
-from .content import NAME, Built, Content, output_path, read_content
+from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
+from .content import NAME, Built, output_path, read_content
 from .description import model_description
 
-SOURCES = (
-    "fmu.c",
-    "image.c",
-    "instance.c",
-    "kernel.c",
-    "model_exchange.c",
-    "places.c",
-    "resource.c",
-    "states.c",
-    "values.c",
-)
+_PARTS = ("fmu", "image", "instance", "kernel", "model_exchange", "places", "resource", "states", "values")
+SOURCES = tuple(f"{part}.c" for part in _PARTS)
 HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "places.h", "resource.h")
 """Of the library, in ``fmu_src/native``; with them goes ``config.h``, which is another one in an FMU."""
 
@@ -55,6 +47,7 @@ def package_native(
     cycle_time: float = CYCLE_TIME,
     naming: Naming = "structured",
     platforms: Sequence[str] = (),
+    axis_type: TypeName | None = None,
 ) -> Built:
     """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
 
@@ -70,6 +63,8 @@ def package_native(
         ``structured`` or ``flat``.
     platforms : sequence of str
         Those of ``PLATFORMS`` that get a library; none: the one this Python runs on.
+    axis_type : str or None
+        As in ``read_machine``.
 
     Raises
     ------
@@ -78,7 +73,7 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming)
+    content = read_content(lists, cycle_time, naming, axis_type)
     files = {f"resources/{name}": data for name, data in content.lists.items()}
     files.update(_libraries(platforms or (own_platform(),)))
     description = replace(
@@ -93,11 +88,15 @@ def package_native(
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
     path = output_path(output, f"{NAME}.fmu")
     write_fmu(path, files)
-    return content.built(path)
+    return content._replace(path=path)
 
 
 def write_image(
-    lists: str | os.PathLike[str], output: str | os.PathLike[str], *, cycle_time: float = CYCLE_TIME
+    lists: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    cycle_time: float = CYCLE_TIME,
+    axis_type: TypeName | None = None,
 ) -> Built:
     """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
 
@@ -106,17 +105,13 @@ def write_image(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time)
+    content = read_content(lists, cycle_time, axis_type=axis_type)
     path = output_path(output, IMAGE)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(image_of(content.compiled, _guid(content)))
-    except OSError as error:
-        raise BuildError(f"{path} cannot be written: {error.strerror or error}") from None
-    return content.built(path)
+    write_file(path, image_of(content.compiled, _guid(content)))
+    return content._replace(path=path)
 
 
-def _guid(content: Content) -> str:
+def _guid(content: Built) -> str:
     """Return a guid that depends on variables and tables, not on date, compiler and platforms."""
     description = model_description(replace(content.description, generated=""), content.variables, "")
     return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "")})

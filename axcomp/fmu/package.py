@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ..interface.variable import Variable
 from ..interface.variables import Naming
+from ..lists import TypeName
 from ..model.companions import fmu_sources
 from ..model.machine import CYCLE_TIME
 from .archive import BuildError, content_guid, file_bytes, write_fmu
@@ -27,33 +28,24 @@ def package_axcomp(
     cycle_time: float = CYCLE_TIME,
     naming: Naming = "structured",
     external_tool: bool = True,
+    axis_type: TypeName | None = None,
 ) -> Built:
-    """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
+    """Write the FMU of a machine that runs in Python; parameters as in ``package_native``.
 
-    Parameters
-    ----------
-    lists : path
-        As in ``read_machine``. Everything it reads goes into the FMU.
-    output : path
-        File to write; replaced if it is there.
-    cycle_time : float
-        Of the position controller, s.
-    naming : str
-        ``structured`` or ``flat``.
-    external_tool : bool
-        False: the FMU does not say that it needs Python; some hosts refuse FMUs that need something.
+    ``external_tool`` False: the FMU does not say that it needs Python; some hosts refuse FMUs that need something;
+    ``axis_type``: as in ``read_machine``.
 
     Raises
     ------
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming)
-    interface = Interface.of(content.reading.machine, content.place, cycle_time)
+    content = read_content(lists, cycle_time, naming, axis_type)
+    interface = Interface.of(content.machine, content.start, cycle_time, axis_type)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)
-    return content.built(write_python_fmu(output, description, content.variables, sources, resources))
+    return content._replace(path=write_python_fmu(output, description, content.variables, sources, resources))
 
 
 def write_python_fmu(

@@ -19,21 +19,10 @@ Module = tuple[str, ...]
 
 
 def renamed_sources(slave: Path, package: Path) -> tuple[str, dict[str, bytes]]:
-    """Return the name of the slave's module, and the files that ``resources`` needs for it.
+    """Return the name of the slave's module, and the files that ``resources`` needs for it: contents by path.
 
-    Parameters
-    ----------
-    slave : Path
-        Module that imports from the package by absolute names.
-    package : Path
-        Folder of the package; inside it imports are relative.
-
-    Returns
-    -------
-    str
-        The slave's name with a hash of its own contents and those of the package.
-    dict of str to bytes
-        Path in ``resources`` → contents.
+    The slave imports from the package by absolute names; inside it imports are relative. The name carries a hash of the
+    slave's own contents and those of the package.
     """
     files = {path.relative_to(package).as_posix(): _text(path) for path in needed_files(slave, package)}
     digest = hashlib.sha256(_text(slave))
@@ -73,8 +62,8 @@ def needed_files(slave: Path, package: Path) -> list[Path]:
 
 def _file_of(package: Path, module: Module) -> Path | None:
     """Return the file of a module; None where the name is something inside a module."""
-    place = package.joinpath(*module)
-    for path in (place / "__init__.py", place.with_suffix(".py")):
+    stem = package.joinpath(*module)
+    for path in (stem / "__init__.py", stem.with_suffix(".py")):
         if path.is_file() and path != package.with_suffix(".py"):
             return path
     return None

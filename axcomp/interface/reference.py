@@ -110,13 +110,15 @@ def readme_section() -> str:
     """Return the list of variables for the README: names and units, inputs before outputs."""
     every_axis = [d for d in AXIS_DECLARATIONS if not d.kind]
     of_kinds = [d for d in AXIS_DECLARATIONS if d.kind == FIRST]
-    others = [d for d in AXIS_DECLARATIONS if d.kind in KINDS and d.name == "current"]
+    common = {d.name.removeprefix(FIRST) for d in of_kinds}
+    others = [d for d in AXIS_DECLARATIONS if d.kind in KINDS and d.name.removeprefix(d.kind) not in common]
     others += [d for d in AXIS_DECLARATIONS if d.kind in (PARTICIPANT, VOLUMETRIC)]
+    having = ", ".join(dict.fromkeys(f"with {d.kind}" for d in others))
     rows = ["| | Inputs | Outputs |", "| --- | --- | --- |"]
     for label, declarations, prefix in (
         ("of every axis", every_axis, "NAME."),
         (f"of every kind of compensation, {', '.join(KINDS)}", of_kinds, "NAME."),
-        ("with friction, with volumetric compensation", others, "NAME."),
+        (f"{having} compensation", others, "NAME."),
         ("of every volumetric compensation", OF_VOLUMETRIC, "volumetric[j]."),
         ("of the machine", OF_MACHINE, ""),
     ):
@@ -160,6 +162,8 @@ def _start(declaration: Declaration) -> str:
         return ""
     if declaration.name.endswith(".enable"):
         return "automatic activation"
+    if declaration.path.startswith("compensation."):
+        return "as listed"
     return str(declaration.start).lower() if isinstance(declaration.start, bool) else repr(declaration.start)
 
 

@@ -60,6 +60,8 @@ def activate(
                 if not axis.held:
                     settled = advance_switch(table.switching[kind], state, ready, moving)
                     axis.settled = axis.settled and settled
+        elif not axis.started:
+            state.enable = given.enable[kind]
         if not axis.held:
             out.active[kind] = state.step > 0
 

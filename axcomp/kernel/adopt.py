@@ -52,7 +52,7 @@ def adopt_axis(
         value = 0.0
         if weight > 0.0:
             value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
-        adopt_switch(before.switching[kind], switching, own)
+        adopt_switch(before.switching[kind], switching, own, given.enable[kind])
         adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
         if weight > 0.0 and switching.configured:
             value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)

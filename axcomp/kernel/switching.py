@@ -128,8 +128,15 @@ def blend_in(table: SwitchTable, state: SwitchState, difference: float) -> None:
         state.blend_step = table.blend_cycles
 
 
-def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState) -> None:
-    """Keep a switch where it stands between off and on: its step becomes the one of about the same weight."""
+def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState, enable: bool) -> None:
+    """Keep a switch where it stands between off and on: its step becomes the one of about the same weight.
+
+    What activates automatically and had no table needs no command: it comes on as soon as its conditions hold.
+    """
+    if after.configured and not before.configured and not after.manual:
+        state.enable = enable
+        state.command = enable
+        state.granted = enable
     state.step = mapped_step(state.step, before.cycles, after.cycles)
     if not after.configured:
         state.step = 0

@@ -19,7 +19,7 @@ from .parameter import Quantity as ListQuantity
 from .parameter import axis as axis_id
 from .shown import Table, correction_of
 
-_MODE, AMOUNT = "lr_param.anwahl_losekomp", "getriebe[i].lose"
+MODE, AMOUNT = "lr_param.anwahl_losekomp", "getriebe[i].lose"
 NEGATIVE, POSITIVE = 1, 2
 """Modes of P-AXIS-00021, by the motion after which the drive goes further."""
 
@@ -48,7 +48,7 @@ class BacklashKind(Kind[Backlash]):
     word = "BACKLASH"
     identifier = 44
     activator = Parameter(
-        _MODE,
+        MODE,
         "Activates the backlash compensation: right after 1 positive, 2 negative motion",
         DataType.UNS16,
         0,
@@ -68,6 +68,7 @@ class BacklashKind(Kind[Backlash]):
             index_max=(15,),
         ),
     )
+    values = ("amount",)
     codes = {"AXC-BACKLASH": (Severity.WARNING, "The backlash compensation is activated, but the backlash is 0")}
 
     def activation(self, compensation: Backlash | None) -> Value:
@@ -78,9 +79,9 @@ class BacklashKind(Kind[Backlash]):
         """Return the compensation."""
         amount = source.values.converted(AMOUNT, 0)
         if amount == 0.0:
-            message = f"{_MODE} is {source.values.integer(_MODE)}, but getriebe[0].lose is 0: nothing is compensated."
-            source.note("AXC-BACKLASH", _MODE, message)
-        return Backlash(amount, source.values.integer(_MODE))
+            message = f"{MODE} is {source.values.integer(MODE)}, but getriebe[0].lose is 0: nothing is compensated."
+            source.note("AXC-BACKLASH", MODE, message)
+        return Backlash(amount, source.values.integer(MODE))
 
     def write(self, compensation: Backlash, axis: Axis, lines: EntryWriter) -> None:
         """Append the entries."""

@@ -16,7 +16,7 @@ from .units import span
 PREFIX = "kw.crosscomp."
 CORRECTION = f"{PREFIX}table[i].correction"
 _SETPOINT = f"{PREFIX}table[i].setpoint"
-_LAST_INDEX, _MASTER = f"{PREFIX}last_index", f"{PREFIX}master_ax_nr"
+_LAST_INDEX, _MASTER, _SLAVE = f"{PREFIX}last_index", f"{PREFIX}master_ax_nr", f"{PREFIX}slave_ax_nr"
 _MAX_POINTS, _MANUAL, _CYCLES = f"{PREFIX}max_points", f"{PREFIX}manual_activation", f"{PREFIX}n_cycles"
 _POINTS = 1001
 
@@ -78,19 +78,21 @@ class CrossKind(Kind[Cross]):
             0,
             both("00005"),
             range=AXIS_NUMBER,
-            aliases=(f"{PREFIX}slave_ax_nr",),
+            aliases=(_SLAVE,),
         ),
         smooth_switching(_CYCLES, "00026"),
         Parameter(_MANUAL, "On only by command", DataType.BOOLEAN, 0, both("00029")),
         position(_SETPOINT, "Position of the master", both("00006"), aliases=(f"{PREFIX}table[i].sollw",)),
         position(CORRECTION, "Correction of the slave", both("00007")),
     )
+    values = ("corrections",)
     columns = (_SETPOINT, CORRECTION)
     sizes = (_LAST_INDEX,)
     reserves = _MAX_POINTS
     points_error = 110639
     at_standstill = True
     codes = {
+        "AXC-SLAVE": (Severity.WARNING, "Cross compensation: slave_ax_nr is read as the number of the master"),
         "70245": (Severity.ERROR, "Cross compensation: setpoints are not ascending"),
         "110639": (Severity.ERROR, "Cross compensation: max_points was changed by an update"),
     }
@@ -105,6 +107,9 @@ class CrossKind(Kind[Cross]):
         master = source.axis_of(_MASTER, "master")
         if master is None:
             return None
+        if values.spelt(_SLAVE):
+            corrected = f"axis {source.axis.number}, whose list this is, is corrected by the position of axis"
+            source.note("AXC-SLAVE", _SLAVE, f"{_SLAVE} names the master: {corrected} {master.number}.")
         source.note_own_master(_MASTER)
         # Positions are the master's, so they count in its increments.
         master_gear, slave_gear = source.gears(f"{PREFIX}unit", master, source.axis)

@@ -142,6 +142,7 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
         ),
         position(CURVE[1], "Correction of the slave", twincat("00067"), index_max=(4,)),
     )
+    values = ("corrections", "tests", *list(TEST_FIELDS)[2:])
     columns = (*TEST_FIELDS.values(), *CURVE)
     sizes = (MAX_POINTS, LAST_INDEX)
     at_standstill = True

@@ -147,6 +147,7 @@ class FrictionKind(Kind[Friction]):
             Parameter(CURRENT, "Current", DataType.SGN32, 0, both("00047"), ListQuantity.CURRENT, "(MIN, MAX)"),
         )
     )
+    values = ("currents",)
     inputs = (
         KindInput(48, "ahead_known", "ahead_known", "velocity_ahead is given", boolean=True, present=_needs_ahead(1)),
         *(

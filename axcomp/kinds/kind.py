@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
 from ..kernel.compensations import CompensationTables
@@ -42,6 +42,9 @@ class Values(Protocol):
 
     def given(self, name: str, *indices: int) -> bool:
         """Whether an entry is there."""
+
+    def spelt(self, name: str) -> bool:
+        """Whether a parameter is given by this very name."""
 
     def number(self, name: str, *indices: int) -> Any:
         """Return a number in the unit of the list."""
@@ -168,8 +171,12 @@ class Kind(ABC, Generic[C]):
         What their names begin with.
     parameters : tuple of Parameter
         All its entries, in the order of the manuals.
+    values : tuple of str
+        Fields of the compensation, and of records in it, that grow with what is compensated: a factor multiplies them.
     columns, sizes : tuple of str
         Entries whose presence, or whose value above 0, means that there is a table.
+    places : tuple of str
+        Entries that say where a table lies: the wrong default would go unnoticed.
     reserves : str
         Entry that says how many entries the controller keeps free for its table; "" if none does.
     points_error : int
@@ -195,8 +202,10 @@ class Kind(ABC, Generic[C]):
     list_kind: ClassVar[ListKind] = ListKind.COMPENSATION
     prefix: ClassVar[str]
     parameters: ClassVar[tuple[Parameter, ...]]
+    values: ClassVar[tuple[str, ...]]
     columns: ClassVar[tuple[str, ...]] = ()
     sizes: ClassVar[tuple[str, ...]] = ()
+    places: ClassVar[tuple[str, ...]] = ()
     reserves: ClassVar[str] = ""
     points_error: ClassVar[int] = 0
     at_standstill: ClassVar[bool] = False
@@ -244,6 +253,11 @@ class Kind(ABC, Generic[C]):
         """Return over what, and from where to where, a compensation has values of its own; ``tables``: its own."""
         return ranges_of(tables) if tables[0].entry else []
 
+    def scaled(self, compensation: C, factor: float) -> C:
+        """Return a compensation that adds so many times as much."""
+        scaled: C = _times(compensation, self.values, factor)
+        return scaled
+
     def reserved(self, compensation: C | None, values: Values | None = None) -> int:
         """Return how many entries the controller keeps free for its table, at least 1.
 
@@ -267,6 +281,16 @@ class Kind(ABC, Generic[C]):
     def follows(self, compensation: C) -> bool:
         """Tell whether its value depends on what the kinds before it add."""
         return False
+
+
+def _times(value: Any, names: tuple[str, ...], factor: float) -> Any:
+    """Return a number times a factor; of a tuple all its items, of a record the fields with these names."""
+    if isinstance(value, tuple):
+        return tuple(_times(item, names, factor) for item in value)
+    if is_dataclass(value) and not isinstance(value, type):
+        own = [field.name for field in fields(value) if field.name in names]
+        return replace(value, **{name: _times(getattr(value, name), names, factor) for name in own})
+    return None if value is None else value * factor
 
 
 KIND_NAMES = tuple(fields_of(CompensationTables))

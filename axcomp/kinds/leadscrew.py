@@ -115,8 +115,10 @@ class LeadscrewKind(Kind[Leadscrew]):
             aliases=(f"{PREFIX}table[i].sollw",),
         ),
     )
+    values = ("positive", "negative")
     columns = (POSITIVE, NEGATIVE, _SETPOINT)
     sizes = (_COUNT,)
+    places = (_INTERVAL, _START)
     reserves = _MAX_POINTS
     points_error = 110638
     codes = {

@@ -154,6 +154,8 @@ class Parameter:
         The only values allowed; empty if the range decides.
     names : mapping of str to int
         Names that stand for numbers, in capitals.
+    flags : bool
+        Names and numbers are bits that may be joined: ``A | B``.
     index_max : tuple of int
         Largest value of each index; empty if another parameter bounds it.
     index_code : str
@@ -176,6 +178,7 @@ class Parameter:
     usable: str = ""
     values: tuple[int | str, ...] = ()
     names: Mapping[str, int] = field(default_factory=dict)
+    flags: bool = False
     index_max: tuple[int, ...] = ()
     index_code: str = "AXC-INDEX"
     aliases: tuple[str, ...] = ()

@@ -122,8 +122,10 @@ class PlaneKind(Kind[Plane]):
         Parameter(_MANUAL, "On only by command", DataType.BOOLEAN, 0, both("00030")),
         position(CORRECTION, "Correction of the slave; j counts master 2, i master 1", both("00016")),
     )
+    values = ("corrections",)
     columns = (CORRECTION,)
     sizes = _LAST_INDEX
+    places = _START
     reserves = _MAX_POINTS
     points_error = 110640
     at_standstill = True

@@ -82,6 +82,7 @@ class TemperatureKind(Kind[Temperature]):
             usable="(0, 20]",
         ),
     )
+    values = ("offset", "coefficient")
     inputs = (
         KindInput(39, "temperature.offset", "offset", "Offset of the temperature compensation", "{}", field="offset"),
         KindInput(

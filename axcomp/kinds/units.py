@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from decimal import Context, Decimal
 from fractions import Fraction
-from typing import NamedTuple
 
 from .parameter import Quantity
 
@@ -14,14 +13,10 @@ EXACT = Context(prec=1000)
 """In which decimals lose nothing."""
 
 
-class Gear(NamedTuple):
-    """Path resolution of an axis: 0.1 µm (or 0.0001°) for how many increments (P-AXIS-00233, P-AXIS-00234)."""
+Gear = Fraction
+"""How many 0.1 µm (or 0.0001°) an encoder increment of an axis is, exactly: 1/R."""
 
-    numerator: int = 1
-    denominator: int = 1
-
-
-METRIC = Gear()
+METRIC = Gear(1)
 """Values that stand in 0.1 µm or 0.0001° already."""
 
 
@@ -31,7 +26,7 @@ def convert(value: int | Decimal, divisor: int, gear: Gear = METRIC) -> float:
         return value * gear.numerator / (gear.denominator * divisor)
     if gear == METRIC:
         return float(value.scaleb(1 - len(str(divisor)), EXACT))
-    return float(Fraction(value) * gear.numerator / (gear.denominator * divisor))
+    return float(Fraction(value) * gear / divisor)
 
 
 def equidistant(
@@ -41,8 +36,7 @@ def equidistant(
     if isinstance(start, int) and isinstance(interval, int):
         return [convert(start + i * interval, divisor, gear) for i in range(count)]
     exact_start, exact_interval = Fraction(start), Fraction(interval)
-    factor = Fraction(gear.numerator, gear.denominator * divisor)
-    return [float((exact_start + i * exact_interval) * factor) for i in range(count)]
+    return [float((exact_start + i * exact_interval) * gear / divisor) for i in range(count)]
 
 
 def in_list(value: float, quantity: Quantity, divisor: int = 0) -> int | Decimal:

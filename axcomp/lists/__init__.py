@@ -4,7 +4,7 @@ from ..kinds.parameter import Severity
 from .document import Document
 from .findings import CODES, Finding, ListError
 from .positions import Position
-from .reader import Reading, read_machine, reread_volumetric
+from .reader import Reading, TypeName, read_machine, reread_volumetric
 from .writer import format_axis_list, format_compensation_list, format_start_up_list, machine_documents, write_machine
 
 __all__ = [
@@ -15,6 +15,7 @@ __all__ = [
     "Position",
     "Reading",
     "Severity",
+    "TypeName",
     "format_axis_list",
     "format_compensation_list",
     "format_start_up_list",

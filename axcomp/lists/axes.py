@@ -7,11 +7,17 @@ from dataclasses import dataclass
 from ..kinds import KINDS
 from ..kinds.units import METRIC, Gear
 from ..model.machine import AXES_MAX, AxisType, ModuloRange
+from .catalogue import parameter
 from .findings import Findings
 from .values import ListValues
 
 _MODULO_BIT = 0x4
 _NAME = "kopf.log_achs_name"
+_GEAR = "getriebe[i]."
+_INCREMENTS = f"{_GEAR}incr_per_rev"
+_PATH = (f"{_GEAR}wegaufz", f"{_GEAR}wegaufn")
+_TURNS = (f"{_GEAR}gear_fact_num", f"{_GEAR}gear_fact_denom")
+_FEED = (f"{_GEAR}feed_const_num", f"{_GEAR}feed_const_denom")
 
 
 @dataclass
@@ -31,7 +37,7 @@ class AxisSettings:
     backlash_cycles : int
         P-AXIS-00243.
     gear : Gear
-        Path resolution.
+        What an encoder increment is.
     activated : dict of str to bool
         By kind of compensation. None: there is no axis list at all, whatever is plausible acts.
     values : ListValues or None
@@ -64,14 +70,12 @@ class AxisSettings:
 
 def read_axis(number: int, values: ListValues, findings: Findings) -> AxisSettings:
     """Return the settings of an axis from its list, which falls back on the list for all axes."""
-    numerator = values.integer("getriebe[i].wegaufn", 0)
-    denominator = values.integer("getriebe[i].wegaufz", 0)
     axis = AxisSettings(
         number=number,
         type=AxisType(values.integer("kenngr.achs_typ")),
         modulo=_modulo(values, findings) if values.integer("kenngr.achs_mode") & _MODULO_BIT else None,
         backlash_cycles=values.integer("lr_param.n_backlash_cyc"),
-        gear=METRIC if numerator == denominator else Gear(numerator, denominator),
+        gear=_gear(values, findings),
         activated={name: kind.is_activated(values) for name, kind in KINDS.items()},
         values=values,
         s_limit=values.converted("lr_param.vol_comp.s_limit"),
@@ -80,6 +84,30 @@ def read_axis(number: int, values: ListValues, findings: Findings) -> AxisSettin
     )
     axis.take_name(values)
     return axis
+
+
+def _gear(values: ListValues, findings: Findings) -> Gear:
+    """Return what an encoder increment is, by the first gear step (``getriebe[0]``)."""
+
+    def note(code: str, name: str, message: str) -> None:
+        findings.add(code, *values.place(name, 0), parameter(values.kind, name).named(0), message)
+
+    path, turns, feed = (Gear(*(values.integer(name, 0) for name in names)) for names in (_PATH, _TURNS, _FEED))
+    if all(values.integer(name, 0) == 1 for name in _FEED):
+        return 1 / path
+    # Older builds of the controller have no entries of their own for the gear.
+    old = not any(values.line(name, 0) for name in _TURNS)
+    if path != 1 and not old:
+        note("AXC-UNUSED", _PATH[0], "wegaufz and wegaufn are not used: feed constant and gear give the resolution.")
+    increments = values.integer(_INCREMENTS, 0)
+    if not increments:
+        increments = int(parameter(values.kind, _INCREMENTS).default)
+        note(
+            "AXC-RESOLUTION",
+            _INCREMENTS,
+            f"incr_per_rev is 0, although there is a feed constant; {increments} is used.",
+        )
+    return feed / (increments * (path if old else turns))
 
 
 def _modulo(values: ListValues, findings: Findings) -> ModuloRange:

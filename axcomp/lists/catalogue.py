@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..kinds import KINDS
 from ..kinds.parameter import ListKind, Parameter, key_of
 from .catalogue_compensation import COMPENSATION
 from .catalogue_machine import AXIS, START_UP
@@ -16,6 +17,20 @@ CATALOGUE: dict[ListKind, tuple[Parameter, ...]] = {
     ListKind.VOLUMETRIC: VOLUMETRIC,
 }
 """The parameters of each kind of list, in the order of the manuals."""
+
+
+ZEROED: dict[ListKind, set[str]] = {
+    ListKind.START_UP: {"zahl_kw", "zahl_mds"},
+    ListKind.AXIS: set(),
+    ListKind.COMPENSATION: {
+        row.key
+        for kind in KINDS.values()
+        for row in kind.parameters
+        if "[" in row.name or row.name in (*kind.sizes, *kind.places)
+    },
+    ListKind.VOLUMETRIC: set(),
+}
+"""Parameters by ``key_of`` that leave nothing, or not what was meant, of a table or of all lists where they are 0."""
 
 
 class Spelling(NamedTuple):

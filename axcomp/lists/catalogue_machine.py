@@ -11,6 +11,37 @@ def _start_up(number: str) -> dict[Manual, str]:
     return {Manual.START_UP: f"P-STUP-{number}"}
 
 
+def _gear(name: str, meaning: str, default: int, number: str, code: str = "AXC-RANGE", low: int = 1) -> Parameter:
+    """Return a parameter of the gear steps."""
+    return Parameter(
+        f"getriebe[i].{name}",
+        meaning,
+        DataType.UNS32,
+        default,
+        axis(number),
+        range=f"[{low}, MAX]",
+        index_max=(15,),
+        code=code,
+    )
+
+
+_MODES = {
+    "LINEAR": 0x1,
+    "MODULO": 0x4,
+    "PLANDREHEN": 0x40,
+    "LAENGSDREHEN": 0x80,
+    "KEINE_AUTO_RPF": 0x100,
+    "CAX": 0x200,
+    "MODULO_LINEAR": 0x400,
+    "CLAMPABLE": 0x800,
+    "ROT_TABLE": 0x1000,
+    "COLL_CHECK": 0x8000,
+    "GANTRY_MASTER": 0x1_0000,
+    "GANTRY_SLAVE": 0x2_0000,
+    "SPINDLE_EXT_CTRL": 0x4_0000,
+}
+"""Bits of P-AXIS-00015 by the names the vendor's page gives; only that of modulo matters."""
+
 START_UP = (
     Parameter("zahl_kw", "Number of compensation value lists", DataType.UNS16, 0, _start_up("00016"), range="[0, 32]"),
     Parameter(
@@ -32,8 +63,16 @@ START_UP = (
         "",
         _start_up("00035"),
     ),
-    Parameter("zahl_mds", "Number of axis lists", DataType.UNS16, 0, {}, range="[0, 32]"),
-    Parameter("achs_mds[i]", "File name of an axis list", DataType.STRING, "", {}, index_max=(31,)),
+    Parameter(
+        "zahl_mds",
+        "Number of axis lists",
+        DataType.SGN16,
+        0,
+        _start_up("00014"),
+        range="[1, 32]",
+        usable="[0, 32]",
+    ),
+    Parameter("achs_mds[i]", "File name of an axis list", DataType.STRING, "", _start_up("00015"), index_max=(31,)),
     Parameter(
         "vol_comp[i].max_records",
         "Records reserved for a volumetric compensation",
@@ -53,7 +92,7 @@ START_UP = (
         index_code="70506",
     ),
 )
-"""``hochlauf.lis``. ``zahl_mds`` and ``achs_mds`` are ours, in the shape of ``zahl_kw`` and ``achs_kw``."""
+"""``hochlauf.lis``."""
 
 AXIS = (
     Parameter(
@@ -81,7 +120,8 @@ AXIS = (
         DataType.UNS32,
         1,
         axis("00015"),
-        names={"ACHSMODE_LINEAR": 0x1, "ACHSMODE_MODULO": 0x4},
+        names={f"ACHSMODE_{name}": bit for name, bit in _MODES.items()},
+        flags=True,
     ),
     Parameter("kenngr.gantry_ax_nr", "Logical number of the gantry master", DataType.UNS16, 0, axis("00070")),
     *(kind.activator for kind in KINDS.values()),
@@ -111,26 +151,13 @@ AXIS = (
         axis("00526"),
         Quantity.VELOCITY,
     ),
-    Parameter(
-        "getriebe[i].wegaufn",
-        "Path resolution, 0.1 µm or 0.0001°",
-        DataType.UNS32,
-        1,
-        axis("00233"),
-        range="[1, MAX]",
-        index_max=(15,),
-        code="110086",
-    ),
-    Parameter(
-        "getriebe[i].wegaufz",
-        "Path resolution, increments",
-        DataType.UNS32,
-        1,
-        axis("00234"),
-        range="[1, MAX]",
-        index_max=(15,),
-        code="110386",
-    ),
+    _gear("wegaufn", "Path resolution, 0.1 µm or 0.0001°", 1, "00233", "110086"),
+    _gear("wegaufz", "Path resolution, increments", 1, "00234", "110386"),
+    _gear("incr_per_rev", "Encoder increments per revolution of the motor", 1024, "00092", low=0),
+    _gear("gear_fact_num", "Gear: turns of the motor", 1, "00511"),
+    _gear("gear_fact_denom", "Gear: turns of the load", 1, "00512"),
+    _gear("feed_const_num", "Feed constant, 0.1 µm or 0.0001°", 1, "00362"),
+    _gear("feed_const_denom", "Feed constant, revolutions of the load", 1, "00363", "110472"),
     Parameter(
         "getriebe[i].modulou",
         "Lower end of the modulo range",

@@ -33,7 +33,8 @@ class TableReader:
     def note(self, code: str, name: str, message: str, *indices: int) -> None:
         """Note a finding at an entry of this list."""
         shown = parameter(self.values.kind, name).named(*indices) if indices else name
-        self._findings.add(code, self.values.file, self._line(name, indices), shown, message)
+        line = self._line(parameter(self.values.kind, name).name, indices)
+        self._findings.add(code, self.values.file, line, shown, message)
 
     def _line(self, name: str, indices: Indices) -> int:
         """Return the line of an entry, or of the one before it in the table where it is missing."""

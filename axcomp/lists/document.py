@@ -7,18 +7,16 @@ it belongs to a row of a table whose rows now stand for something else. Everythi
 
 from __future__ import annotations
 
-import codecs
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from ..kinds.parameter import DataType, ListKind, Parameter, key_of
 from .catalogue import SPELLINGS, parameter
 from .findings import Findings
 from .format import text_of
-from .grammar import Entry, decode, entries
+from .grammar import Encoding, Entry, continued, decode, encoding_of, entries
 from .positions import DOS_END, INDEX, DocumentEntry, Position, detailed, with_value
 from .saving import write_whole
 from .values import ListValues, read_values
@@ -28,13 +26,6 @@ _END = re.compile(r"\s*end\s*\Z", re.I)
 
 Name = tuple[str, tuple[int, ...]]
 """``key_of`` a parameter's name, and its indices: what an entry is about, however it is spelt."""
-
-
-class Encoding(NamedTuple):
-    """How the characters of a file are encoded: ``utf-8`` or ``latin-1``, and whether a byte order mark leads them."""
-
-    name: str
-    mark: bool
 
 
 class Document:
@@ -94,11 +85,7 @@ class Document:
     @property
     def encoding(self) -> Encoding:
         """Of the characters."""
-        try:
-            self.data.decode("utf-8")
-        except UnicodeDecodeError:
-            return Encoding("latin-1", False)
-        return Encoding("utf-8", self.data.startswith(codecs.BOM_UTF8))
+        return encoding_of(self.data)
 
     @property
     def newline(self) -> str:
@@ -181,7 +168,9 @@ class Document:
         """Take an entry out, each time it is given; ValueError if it is not there."""
         meant, indices = self._meant(name, indices)
         wanted = (meant.key, indices)
-        gone = {entry.line - 1 for found, _, entry in self._known() if found == wanted}
+        inside = continued(self._editable())
+        at = [entry.line - 1 for found, _, entry in self._known() if found == wanted]
+        gone = {line for first in at for line in (first, *_behind(first, inside))}
         if not gone:
             raise ValueError(f"{self.path} has no entry {meant.named(*indices) if indices else meant.name}")
         self._rebuild(gone, {})
@@ -211,18 +200,21 @@ class Document:
         keys = {key_of(name) for name in owned}
         present = [found for found in self._known() if found[1].key in keys]
         lines = self._editable()
+        inside = continued(lines)
         stay: dict[Name, int] = {}
         gone: set[int] = set()
         for name, known, entry in present:
             at = entry.line - 1
             replacement = wanted.get(name)
             if replacement is None:
-                gone.add(at)
+                gone.update({at, *_behind(at, inside)})
                 continue
             stay[name] = at
             value = replacement.text.rstrip() if known.type is DataType.STRING else replacement.word
             comment_stays = keep_row_comments or not entry.indices
             lines[at] = with_value(lines[at], entry, known, value, comment_stays)
+            if not comment_stays:
+                gone.update(_behind(at, inside))
         end = self._end()
         first = present[0][2].line - 1 if present else None
         first_row = next((entry.line - 1 for _, _, entry in present if entry.indices), None)
@@ -240,7 +232,7 @@ class Document:
             return self.data
         text = "".join(line + newline for line, newline in zip(self._lines, [*self._newlines, ""], strict=True))
         name, mark = self.encoding
-        return (codecs.BOM_UTF8 if mark else b"") + text.encode(name)
+        return ("\ufeff" * mark + text).encode(name)
 
     @property
     def changed(self) -> bool:
@@ -262,8 +254,8 @@ class Document:
         return self.kind
 
     def _decoded(self) -> str:
-        text = self.data.decode(self.encoding.name)
-        return text[1:] if self.encoding.mark else text
+        name, mark = self.encoding
+        return self.data.decode(name)[mark:]
 
     def _editable(self) -> list[str]:
         if self._lines is None:
@@ -300,7 +292,9 @@ class Document:
         lines = self._editable()
         # A last line that is empty is none: there is nothing behind the last newline.
         count = len(lines) - (not lines[-1].strip(DOS_END))
-        return next((i for i, line in enumerate(lines) if _END.match(line.replace(DOS_END, ""))), count)
+        inside = continued(lines)
+        ends = (i for i, line in enumerate(lines) if i not in inside and _END.match(line.replace(DOS_END, "")))
+        return next(ends, count)
 
     def _insert(self, meant: Parameter, indices: tuple[int, ...], line: str) -> None:
         table = meant.key.rpartition(".")[0]
@@ -314,18 +308,29 @@ class Document:
     def _rebuild(self, gone: Collection[int], added: Mapping[int, Sequence[str]]) -> None:
         """Take lines out, and put lines before others."""
         lines, newlines, newline = self._editable(), self._newlines, self.newline
+        inside = continued(lines)
+        # Nothing is put into a comment.
+        places: dict[int, list[str]] = {}
+        for i in sorted(added):
+            places.setdefault(max((i, *(line + 1 for line in _behind(i - 1, inside)))), []).extend(added[i])
         out: list[str] = []
         for i, line in enumerate(lines):
-            out.extend(text + newline for text in added.get(i, ()))
+            out.extend(text + newline for text in places.get(i, ()))
             if i not in gone:
                 out.append(line + (newlines[i] if i < len(newlines) else ""))
-        behind = added.get(len(lines), ())
+        behind = places.get(len(lines), ())
         if behind and out and out[-1] and not out[-1].endswith(("\n", "\r")):
             out[-1] += newline
         out.extend(text + newline for text in behind)
         pieces = _NEWLINES.split("".join(out))
         self._lines, self._newlines = pieces[::2], pieces[1::2]
         self._forget()
+
+
+def _behind(at: int, inside: Collection[int]) -> Iterator[int]:
+    """Yield the lines over which a comment goes on that begins in a line, or before it; ``inside``: all such lines."""
+    while (at := at + 1) in inside:
+        yield at
 
 
 def _known(found: Iterable[Entry], kind: ListKind) -> Iterator[tuple[Name, Parameter, Entry]]:

@@ -6,9 +6,11 @@ first blank, a string only at ``(``. So an entry carries both its first word and
 
 from __future__ import annotations
 
+import codecs
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
+from itertools import pairwise
 from typing import NamedTuple
 
 QUOTES = '"“”″\x93\x94'
@@ -23,9 +25,15 @@ _ENTRY = re.compile(
 )
 _ANY_NAME = re.compile(rf"\s*([^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*){_NAME_END}(.*)")
 _INDEX = re.compile(r"\[([0-9\s]*)\]")
+# A comment that is not closed in its line, and a line that begins one: before it stands nothing, or an unquoted value.
+_UNCLOSED = re.compile(r"/\*[^\n*]*+(?:\*(?!/)[^\n*]*+)*+\n")
+_OPENING = re.compile(
+    rf"\s*(?:[^\W0-9][\w.]*(?:\[[0-9\s]*\][\w.]*)*\s+(?:(?!/\*)[^\s#({QUOTES}]\S*(?:\s*\|\s*\w+)*\s+)?)?/\*"
+)
 _ELISION = re.compile(r"\s*(?:\.{2,}|…|:+)\s*$")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?\Z")
 _HEXADECIMAL = re.compile(r"0[xX]([0-9a-fA-F]{1,16})\Z")
+_FLAGS = re.compile(r"\s*[^\s|]+(?:\s*\|\s*\w+)*")
 _CONTROLS = bytes({*range(32)} - set(b"\t\n\v\f\r\x1a"))
 _NUMBER_LENGTH = 400
 
@@ -63,8 +71,9 @@ class Entry(NamedTuple):
 
     @property
     def word(self) -> str:
-        """Value up to the first blank: all there is to a number."""
-        return self.integer or (self.rest.split(None, 1) or [""])[0]
+        """Value up to the first blank: all there is to a number; "" where a comment stands in its place."""
+        word = self.integer or (self.rest.split(None, 1) or [""])[0]
+        return "" if word.startswith("/*") else word
 
     @property
     def name(self) -> str:
@@ -79,15 +88,36 @@ def with_indices(key: str, indices: tuple[int, ...]) -> str:
     return key
 
 
-def decode(data: bytes) -> str | None:
-    r"""Return the text of a file (UTF-8, else Latin-1) with ``\n`` between lines; None if it is no text."""
-    controls = len(data) - len(data.translate(None, _CONTROLS))
-    if b"\0" in data or controls > len(data) // 20:
-        return None
+class Encoding(NamedTuple):
+    """How the characters of a file are encoded, and whether a byte order mark leads them."""
+
+    name: str
+    mark: bool
+
+
+def encoding_of(data: bytes) -> Encoding:
+    """Return the encoding of a file: UTF-16 where a mark says so, UTF-8 where it is, else Latin-1."""
+    for name, mark in (("utf-16-le", codecs.BOM_UTF16_LE), ("utf-16-be", codecs.BOM_UTF16_BE)):
+        if data.startswith(mark):
+            return Encoding(name, True)
     try:
-        text = data.decode("utf-8-sig")
+        data.decode("utf-8")
     except UnicodeDecodeError:
-        text = data.decode("latin-1")
+        return Encoding("latin-1", False)
+    return Encoding("utf-8", data.startswith(codecs.BOM_UTF8))
+
+
+def decode(data: bytes) -> str | None:
+    r"""Return the text of a file (see ``encoding_of``) with ``\n`` between lines; None if it is no text."""
+    encoding = encoding_of(data)
+    try:
+        text = data.decode(encoding.name)[encoding.mark :]
+    except UnicodeDecodeError:
+        return None
+    plain = text.encode() if encoding.name.startswith("utf-16") else data
+    controls = len(plain) - len(plain.translate(None, _CONTROLS))
+    if b"\0" in plain or controls > len(plain) // 20:
+        return None
     return text.replace("\r\n", "\n").replace("\r", "\n").replace("\x1a", "")
 
 
@@ -95,6 +125,8 @@ def entries(text: str, report: Report) -> Iterator[Entry]:
     """Yield the entries of a list up to its ``End``; ``report`` gets the lines that are none."""
     match = _ENTRY.match
     lines = text.split("\n")
+    if "/*" in text and _UNCLOSED.search(text):
+        _blank_comments(lines, report)
     for number, line in enumerate(lines, 1):
         found = match(line)
         if found is None:
@@ -113,10 +145,41 @@ def entries(text: str, report: Report) -> Iterator[Entry]:
             yield Entry(f"{name}[][]{tail}", (int(first), int(second)), integer, rest, number)
 
 
+def continued(lines: Sequence[str]) -> set[int]:
+    """Return the places of the lines that belong to a comment which an earlier line begins.
+
+    A comment that another one begins before it is closed ends with its line.
+    """
+    found: set[int] = set()
+    marked = [at for at, line in enumerate(lines) if "/*" in line or "*/" in line]
+    for at, following in pairwise(marked):
+        opening = None if at in found else _OPENING.match(lines[at])
+        if opening is None or "*/" in lines[at][opening.end() :]:
+            continue
+        if "/*" not in lines[following].partition("*/")[0]:
+            found.update(range(at + 1, following + 1))
+    return found
+
+
+def _blank_comments(lines: list[str], report: Report) -> None:
+    """Make lines of comments empty; what follows a comment in its last line is reported."""
+    for at in sorted(continued(lines)):
+        behind = lines[at].partition("*/")[2].strip()
+        if behind:
+            report("AXC-SYNTAX", at + 1, behind)
+        if lines[at - 1].lstrip().startswith("/*"):
+            lines[at - 1] = ""
+        lines[at] = ""
+
+
 def _odd(line: str, number: int, report: Report) -> Entry | None:
     """Sort out a line the quick expression does not take: an entry with many indices, or a report."""
     stripped = line.strip()
-    if not stripped or stripped.startswith("#"):
+    if (
+        not stripped
+        or stripped.startswith("#")
+        or (stripped.startswith("/*") and stripped.find("*/", 2) == len(stripped) - 2)
+    ):
         return None
     found = _ANY_NAME.match(line)
     if found is not None:
@@ -144,6 +207,12 @@ def number(word: str) -> int | Decimal | None:
         if found := _HEXADECIMAL.match(word):
             return int(found[1], 16)
     return None
+
+
+def flags(text: str) -> str:
+    """Return what an entry's text begins with where bits may be joined: ``A`` or ``A | B``."""
+    found = _FLAGS.match(text)
+    return found[0].strip() if found else ""
 
 
 class String(NamedTuple):

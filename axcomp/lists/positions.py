@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..kinds.parameter import DataType, ListKind, Parameter, key_of
 from .catalogue import SPELLINGS
 from .findings import Finding
-from .grammar import QUOTES, Entry, entries, string, with_indices
+from .grammar import QUOTES, Entry, entries, flags, string, with_indices
 
 if TYPE_CHECKING:
     from .document import Document
@@ -88,6 +88,8 @@ def _value(line: str, entry: Entry, parameter: Parameter | None) -> tuple[int, s
     assert name is not None, f"line {entry.line} has no name"
     start = len(line) - len(line[name.end() :].lstrip())
     old = line[start:].rstrip()
+    if parameter is not None and parameter.flags:
+        return start, flags(old)
     is_string = old[:1] in QUOTES if parameter is None else parameter.type is DataType.STRING
     if not old or not is_string:
         return start, entry.word

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from ..kinds import KINDS, Kind
 from ..kinds.parameter import ListKind, Severity
-from ..model.machine import Axis, Compensation, Machine
+from ..model.machine import Axis, AxisType, Compensation, Machine, ModuloRange
 from ..model.volumetric import Volumetric
 from .axes import Axes, AxisSettings, read_axis
 from .compensation import TableReader
@@ -21,6 +21,15 @@ from .positions import located
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues
 from .volumetric_list import read_one, read_volumetric
+
+TypeName = Literal["translatory", "rotary", "modulo"]
+"""What an axis without axis list can be taken for; ``modulo``: rotary, counting from 0° to 360°."""
+
+_TYPES: dict[TypeName, dict[str, Any]] = {
+    "translatory": {},
+    "rotary": {"type": AxisType.ROTARY},
+    "modulo": {"type": AxisType.ROTARY, "modulo": ModuloRange()},
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +48,8 @@ class Reading:
         The start-up list, where there is one.
     axes : Axes
         What the lists say about the axes besides their tables.
+    axis_type : str or None
+        What was said of axes without axis lists.
     """
 
     machine: Machine
@@ -49,6 +60,7 @@ class Reading:
     axes: Axes = field(repr=False)
     _axis_lists: Mapping[int, Document] = field(repr=False)
     _compensation_lists: Mapping[int, Document] = field(repr=False)
+    axis_type: TypeName | None = None
 
     def axis_list(self, number: int) -> Document | None:
         """Return the list that describes an axis, by its logical number."""
@@ -60,7 +72,7 @@ class Reading:
 
     def again(self) -> Reading:
         """Read the documents as they are now; those that have not been changed since are not parsed again."""
-        return read_machine(self.path, documents=self.documents.values())
+        return read_machine(self.path, documents=self.documents.values(), axis_type=self.axis_type)
 
     def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
         """Return findings about these lists with the columns of the entries they are about."""
@@ -71,7 +83,11 @@ _NUMBER = "kopf.achs_nr"
 
 
 def read_machine(
-    path: str | PathLike[str], *, strict: bool = False, documents: Iterable[Document] | None = None
+    path: str | PathLike[str],
+    *,
+    strict: bool = False,
+    documents: Iterable[Document] | None = None,
+    axis_type: TypeName | None = None,
 ) -> Reading:
     """Read the lists of a machine.
 
@@ -81,11 +97,14 @@ def read_machine(
     ----------
     path : path
         A start-up list, a folder with one, a folder of compensation lists, or a single compensation list. Without
-        any axis list every compensation with a plausible table acts, and all axes are translatory.
+        any axis list every compensation with a plausible table acts.
     strict : bool
         Raise if there is a finding of severity error.
     documents : iterable of Document, optional
         These are all files there are; the disk is not looked at.
+    axis_type : str, optional
+        ``rotary`` or ``modulo``: without any axis list, of the axes that have compensation lists. All others, and all
+        without it, are translatory.
 
     Raises
     ------
@@ -93,7 +112,7 @@ def read_machine(
         In strict mode, with all findings of severity error.
     """
     findings = Findings()
-    reader = _MachineReader(findings, Files(findings, documents))
+    reader = _MachineReader(findings, Files(findings, documents), axis_type)
     reading = reader.read(Path(path))
     errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
@@ -152,9 +171,10 @@ class _Acting(NamedTuple):
 class _MachineReader:
     """Reads axis lists, then compensation lists, then the tables: these need to know all axes."""
 
-    def __init__(self, findings: Findings, files: Files) -> None:
+    def __init__(self, findings: Findings, files: Files, axis_type: TypeName | None = None) -> None:
         self.findings = findings
         self.files = files
+        self.axis_type = axis_type
         self._axis_lists: dict[int, Document] = {}
         self._compensation_lists: dict[int, Document] = {}
 
@@ -166,6 +186,9 @@ class _MachineReader:
             self.findings.add("AXC-UNREADABLE", str(path), 0, "", f"The path cannot be used: {error}.")
             return None
         axes = Axes(self.findings, invent=not lists.has_axis_lists)
+        if self.axis_type and not axes.invent:
+            message = f"The axes are not taken to be {self.axis_type}: there are axis lists, which say what they are."
+            self.findings.add("AXC-UNUSED", str(path), 0, "", message)
         default = self._default_values(lists)
         self._read_axis_lists(lists, axes, default)
         return _Start(lists, axes, self._read_compensation_lists(lists, axes, default))
@@ -187,6 +210,7 @@ class _MachineReader:
             axes,
             self._axis_lists,
             self._compensation_lists,
+            self.axis_type,
         )
 
     def _machine(self, lists: MachineFiles, axes: Axes, tables: dict[int, ListValues]) -> Machine:
@@ -221,7 +245,7 @@ class _MachineReader:
         if values.looks_like is not None:
             message = f"This looks like a list {values.looks_like.value}, not {kind.value}; it is not used."
             self.findings.add("AXC-KIND", str(path), 0, "", message)
-        elif not values:
+        elif not values and not (kind is ListKind.AXIS and values.others):
             self.findings.add("AXC-EMPTY", str(path), 0, "", f"The list has no entry of a list {kind.value}.")
         else:
             return values
@@ -285,7 +309,7 @@ class _MachineReader:
     ) -> bool:
         """Add an axis that has a compensation list but no axis list."""
         if axes.invent:
-            return axes.add(AxisSettings(number), *_at_number(values))
+            return axes.add(AxisSettings(number, **_TYPES[self.axis_type or "translatory"]), *_at_number(values))
         if lists.axis_default is None:
             self._note("AXC-NO-AXIS-LIST", values, f"Axis {number} has no axis list: nothing activates this list.")
         settings = read_axis(number, ListValues("", ListKind.AXIS, default), self.findings)

@@ -115,7 +115,7 @@ def _lists_of_start_up(document: Document, files: Files, findings: Findings) -> 
     path = document.path
     values = document.read_as(ListKind.START_UP, findings)
     lists = MachineFiles(path.parent, start_up=values)
-    if not values:
+    if not values and not values.others:
         findings.add("AXC-EMPTY", str(path), 0, "", "The list has no entry.")
     if values.text("default_achs_mds"):
         position = (*values.place("default_achs_mds"), "default_achs_mds")
@@ -129,7 +129,7 @@ def _lists_of_start_up(document: Document, files: Files, findings: Findings) -> 
 def _named_lists(
     values: ListValues, count_name: str, name: str, files: Files, folder: Path, findings: Findings
 ) -> Iterator[NamedList]:
-    """Yield the lists that entries below the count name; findings about missing ones and those beyond it."""
+    """Yield the lists that entries below the count name; findings about missing ones, and compensations beyond it."""
     count = values.integer(count_name)
     if not values.given(count_name) and values.cells(name):
         findings.add("AXC-UNUSED", values.file, 0, count_name, f"{count_name} is missing: no {name} is used.")
@@ -145,7 +145,8 @@ def _named_lists(
             position = (*values.place(numbered, index), number)
             yield NamedList(path, values.integer(numbered, index) if name == "achs_kw[i]" else 0, position)
     beyond = sorted(indices for indices in values.cells(name) if indices[0] >= count)
-    if beyond and values.given(count_name):
+    # Start-up lists often name more axes than the machine has.
+    if beyond and values.given(count_name) and name == "achs_kw[i]":
         message = f"{len(beyond)} entries {name} lie beyond {count_name} = {count}; they are not used."
         shown = name.replace("[i]", f"[{beyond[0][0]}]")
         findings.add("AXC-UNUSED", values.file, values.line(name, *beyond[0]), shown, message)

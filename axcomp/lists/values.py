@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 from decimal import Decimal
-from functools import lru_cache
 
 from ..kinds.parameter import DataType, ListKind, Parameter, Severity, Value, key_of
 from ..kinds.units import METRIC, Gear, convert
-from .catalogue import SPELLINGS, parameter
+from .catalogue import SPELLINGS, ZEROED, parameter
 from .findings import CODES, Findings
-from .grammar import Entry, entries, number, string
+from .grammar import Entry, entries, flags, number, string
+from .known import is_known, similar
 
 _SUGGESTIONS_MAX = 500
 
@@ -20,16 +19,18 @@ Indices = tuple[int, ...]
 class _Column:
     """All values of one parameter in one list, by their indices."""
 
-    __slots__ = ("cells", "high", "index_max", "low", "parameter", "quick")
+    __slots__ = ("cells", "high", "index_max", "low", "parameter", "quick", "spellings")
 
     def __init__(self, parameter: Parameter) -> None:
         self.parameter = parameter
         self.cells: dict[Indices, tuple[Value, int]] = {}
+        self.spellings: set[str] = set()
         plausible = parameter.plausible
         self.low = plausible.low + plausible.low_open
         self.high = plausible.high - plausible.high_open
         self.index_max = parameter.index_max
-        self.quick = parameter.type is not DataType.STRING and not parameter.values and not parameter.index_max
+        special = parameter.values or parameter.names or parameter.index_max
+        self.quick = parameter.type is not DataType.STRING and not special
 
 
 class ListValues:
@@ -43,6 +44,8 @@ class ListValues:
         What decides which parameters there are.
     foreign : dict of ListKind to int
         Unknown entries that another kind of list has, by that kind.
+    others : int
+        Entries that have nothing to do with compensation.
     """
 
     def __init__(self, file: str, kind: ListKind, fallback: ListValues | None = None) -> None:
@@ -51,6 +54,7 @@ class ListValues:
         self._fallback = fallback
         self._columns: dict[str, _Column] = {}
         self.foreign: dict[ListKind, int] = {}
+        self.others = 0
 
     @property
     def looks_like(self) -> ListKind | None:
@@ -74,6 +78,10 @@ class ListValues:
     def given(self, name: str, *indices: int) -> bool:
         """Whether an entry is there."""
         return indices in self.cells(name)
+
+    def spelt(self, name: str) -> bool:
+        """Whether a parameter is given by this very name."""
+        return any(key_of(name) in column.spellings for column in self._columns.values())
 
     def place(self, name: str, *indices: int) -> tuple[str, int]:
         """Return file and line of an entry, line 0 where it is missing."""
@@ -139,6 +147,7 @@ def read_values(
                 reader.take(column, entry)
         else:
             reader.take(column, entry)
+    reader.finish()
     return values
 
 
@@ -165,13 +174,16 @@ class _ValueReader:
         spelling = SPELLINGS[self._values.kind].get(key)
         if spelling is None:
             self._count_foreign(key)
-            few = len(self._unknown) < _SUGGESTIONS_MAX
-            self._unknown[entry.key] = _similar(self._values.kind, key) if few else ""
+            if not is_known(self._values.kind, key):
+                few = len(self._unknown) < _SUGGESTIONS_MAX
+                self._unknown[entry.key] = similar(self._values.kind, key) if few else ""
             return None
         if spelling.typo:
             right = spelling.parameter.name
             self._note("AXC-TYPO", entry, f"{entry.key} is read as {right}, which is the usual spelling.")
-        return self._values.column(spelling.parameter)
+        column = self._values.column(spelling.parameter)
+        column.spellings.add(key)
+        return column
 
     def _count_foreign(self, key: str) -> None:
         for kind, spellings in SPELLINGS.items():
@@ -180,10 +192,20 @@ class _ValueReader:
 
     def report_unknown(self, entry: Entry) -> None:
         """Note an entry that is not in the catalogue; one that looks like a slip is not lost among strangers."""
-        similar = self._unknown[entry.key]
-        hint = f"; {similar} may be meant" if similar else ""
+        meant = self._unknown.get(entry.key)
+        if meant is None:
+            self._values.others += 1
+            return
+        hint = f"; {meant} may be meant" if meant else ""
         message = f"{entry.name} is not known in this list{hint}; it is not taken."
-        self._note("AXC-UNKNOWN", entry, message, "similar to known ones" if similar else "")
+        self._note("AXC-UNKNOWN", entry, message, "similar to known ones" if meant else "")
+
+    def finish(self) -> None:
+        """Note in one sentence what has nothing to do with compensation."""
+        if count := self._values.others:
+            entries_are = "entry is" if count == 1 else "entries are"
+            message = f"{count:,} {entries_are} known, but without effect on compensations; not used."
+            self._findings.add("AXC-OTHERS", self._values.file, 0, "", message)
 
     def take(self, column: _Column, entry: Entry) -> None:
         """Check an entry and keep its value, or the default instead."""
@@ -200,11 +222,11 @@ class _ValueReader:
         column.cells[entry.indices] = (self._plausible(column.parameter, entry), entry.line)
 
     def _plausible(self, parameter: Parameter, entry: Entry) -> Value:
-        if not entry.text.strip():
+        if not entry.word:
             return self._default(parameter, entry, "AXC-VALUE", "has no value")
         if parameter.type is DataType.STRING:
             return self._string(parameter, entry)
-        value = _number(parameter, entry.word)
+        value = _joined(parameter, entry.text) if parameter.flags else _number(parameter, entry.word)
         if value is None:
             kind = "is neither 0 nor 1" if parameter.type is DataType.BOOLEAN else "is no number"
             return self._default(parameter, entry, "AXC-VALUE", f"= {_short(entry.word)} {kind}")
@@ -237,6 +259,8 @@ class _ValueReader:
         return found.value
 
     def _default(self, parameter: Parameter, entry: Entry, code: str, fault: str) -> Value:
+        if code in ("AXC-VALUE", "AXC-RANGE") and parameter.key in ZEROED[self._values.kind]:
+            code = "AXC-ZEROED"
         instead = parameter.default if parameter.default != "" else "nothing"
         self._note(code, entry, f"{entry.name} {fault}; {instead} is used.")
         return parameter.default
@@ -253,14 +277,16 @@ def _number(parameter: Parameter, word: str) -> int | Decimal | None:
     return parameter.names.get(capitals, number(word))
 
 
+def _joined(parameter: Parameter, text: str) -> int | None:
+    """Return the bits of names and numbers as in ``A | B``; a second word that is neither begins the comment."""
+    bits = None
+    for word in flags(text).split("|"):
+        value = _number(parameter, word.strip())
+        if not isinstance(value, int):
+            break
+        bits = value if bits is None else bits | value
+    return bits
+
+
 def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:40]}…"
-
-
-@lru_cache(maxsize=4096)
-def _similar(kind: ListKind, key: str) -> str:
-    """Return the name of the parameter that an unknown one resembles, "" if none does."""
-    if len(key) > 80:
-        return ""
-    found = difflib.get_close_matches(key, SPELLINGS[kind], 1, 0.85)
-    return SPELLINGS[kind][found[0]].parameter.name if found else ""

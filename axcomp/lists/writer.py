@@ -62,7 +62,7 @@ def format_start_up_list(machine: Machine) -> str:
         raise ValueError(f"{len(machine.axes)} axes: a start-up list names at most {AXES_MAX}")
     lines = Lines(ListKind.START_UP)
     lines.heading("Axis lists")
-    lines.add("zahl_mds", len(machine.axes))
+    lines.add_unless_default("zahl_mds", len(machine.axes))
     for i, axis in enumerate(machine.axes):
         lines.add("achs_mds[i]", _axis_file(axis), i)
     lines.heading("Compensation value lists")

@@ -59,22 +59,11 @@ class MeasurementError(Exception):
 
 @dataclass(frozen=True)
 class Column:
-    """A column that is looked for.
+    """A column that is looked for, by its name in the first row, in any case, or one of its aliases.
 
-    Attributes
-    ----------
-    name : str
-        In the first row, in any case.
-    units : mapping of str to float
-        Units it may have, and what they are worth; empty for bare numbers.
-    unit : str
-        The unit where the file gives none; "": there has to be one.
-    optional : bool
-        It may be missing; only columns that are needed count in a file without names.
-    direction : bool
-        Cells are ±1, ``+``/``-``, ``pos``/``neg``, ``up``/``down`` and the like.
-    aliases : tuple of str
-        Other names.
+    ``units``: those it may have, and what they are worth, empty for bare numbers; ``unit``: where the file gives none,
+    "": there has to be one. ``optional``: it may be missing; only columns that are needed count in a file without
+    names. ``direction``: cells are ±1, ``+``/``-``, ``pos``/``neg``, ``up``/``down`` and the like.
     """
 
     name: str
@@ -87,20 +76,10 @@ class Column:
 
 @dataclass(frozen=True)
 class Columns:
-    """What a file says.
+    """What a file says, by the name of the column: values, shape (rows,), in the units asked for; only what is there.
 
-    Attributes
-    ----------
-    file : str
-        As it was named.
-    values : mapping of str to array, shape (rows,)
-        By the name of the column, in the units asked for; only what is there.
-    units : mapping of str to str
-        The unit each column had, "" for bare numbers.
-    lines : array of int, shape (rows,)
-        Where each row stands.
-    details : mapping of str to str
-        From comments, names in small letters.
+    ``units``: the unit each column had, "" for bare numbers; ``lines``: where each row stands; ``details``: from
+    comments, names in small letters.
     """
 
     file: str
@@ -153,10 +132,9 @@ def read_columns(path: Path, wanted: Sequence[Column]) -> Columns:
         lines.append(line)
     if names is None or not rows:
         raise MeasurementError(file, 0, "There is no measured value in it.")
-    table = np.array(rows)
     values = {
-        column.name: table[:, place] * (column.units[unit] if column.units else 1.0)
-        for place, (column, unit) in enumerate(names)
+        column.name: cells * (column.units[unit] if column.units else 1.0)
+        for cells, (column, unit) in zip(np.array(rows).T, names, strict=True)
     }
     units = {column.name: unit for column, unit in names}
     return Columns(file, values, units, np.array(lines), details)
@@ -218,10 +196,9 @@ def _row(file: str, line: int, cells: Sequence[str], names: Sequence[tuple[Colum
         raise MeasurementError(file, line, f"There are {len(cells)} cells for {len(names)} columns.")
     row = []
     for cell, (column, _) in zip(cells, names, strict=True):
-        value = _DIRECTIONS.get(cell.lower()) if column.direction else _number(cell)
-        if value is None and column.direction:
-            value = _number(cell)
-            value = value if value in (1.0, -1.0) else None
+        value = _number(cell)
+        if column.direction:
+            value = _DIRECTIONS.get(cell.lower(), value if value in (1.0, -1.0) else None)
         if value is None or not math.isfinite(value):
             kind = "direction (+ or −)" if column.direction else "number"
             raise MeasurementError(file, line, f"“{cell}” is no {kind}, as {column.name} has to be.")

@@ -16,13 +16,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..engine.motion import Array
+from ..model.quantity import symbol
 from .positioning import Positioning
 from .uncertainty import Conditions
 
@@ -38,6 +39,19 @@ PARAMETERS = ("A", "A_up", "A_down", "R", "R_up", "R_down", "E", "E_up", "E_down
 
 SYMBOLS = {name: name.replace("_up", "↑").replace("_down", "↓").replace("B_mean", "B̄") for name in PARAMETERS}
 """As the standard writes them."""
+
+OF_TARGETS = {
+    "mean_up": "x̄↑",
+    "mean_down": "x̄↓",
+    "mean": "x̄",
+    "reversal": "B",
+    "s_up": "s↑",
+    "s_down": "s↓",
+    "repeatability_up": "R↑",
+    "repeatability_down": "R↓",
+    "repeatability": "R",
+}
+"""Names of the figures of each target, and how the standard writes them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,29 +126,17 @@ class Iso230Result:
         """Return the figures of each target as a data frame, one row a target, symbols of the standard as columns."""
         import pandas as pd  # of the extra "workbench"
 
-        return pd.DataFrame(
-            {
-                "n↑": self.count_up,
-                "n↓": self.count_down,
-                "x̄↑": self.mean_up,
-                "x̄↓": self.mean_down,
-                "x̄": self.mean,
-                "B": self.reversal,
-                "s↑": self.s_up,
-                "s↓": self.s_down,
-                "R↑": self.repeatability_up,
-                "R↓": self.repeatability_down,
-                "R": self.repeatability,
-                "U(x̄↑)": mean_uncertainty(self.s_up, self.count_up),
-                "U(x̄↓)": mean_uncertainty(self.s_down, self.count_down),
-            },
-            index=pd.Index(self.positions, name=f"target [{self.position_unit}]"),
-        )
+        columns = {
+            "n↑": self.count_up,
+            "n↓": self.count_down,
+            **{written: getattr(self, name) for name, written in OF_TARGETS.items()},
+            "U(x̄↑)": mean_uncertainty(self.s_up, self.count_up),
+            "U(x̄↓)": mean_uncertainty(self.s_down, self.count_down),
+        }
+        return pd.DataFrame(columns, index=pd.Index(self.positions, name=f"target [{self.position_unit}]"))
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything for JSON; None stands for what is not available."""
-        columns = ["mean_up", "mean_down", "mean", "s_up", "s_down", "reversal"]
-        columns += ["repeatability_up", "repeatability_down", "repeatability"]
         return {
             "axis": self.axis,
             "source": self.source,
@@ -148,7 +150,7 @@ class Iso230Result:
                     "position": float(position),
                     "count_up": int(self.count_up[i]),
                     "count_down": int(self.count_down[i]),
-                    **{name: _plain(getattr(self, name)[i]) for name in columns},
+                    **{name: _plain(getattr(self, name)[i]) for name in OF_TARGETS},
                 }
                 for i, position in enumerate(self.positions)
             ],
@@ -156,10 +158,38 @@ class Iso230Result:
         }
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw mean deviations in both directions with bands of ±2s and the single readings; return the axes."""
-        from .picture import plot
+        """Draw mean deviations in both directions with bands of ±2s and the single readings, as the standard does.
 
-        return plot(self, ax)
+        It goes into ``ax``, or into a new figure; return the axes.
+        """
+        from ..plot.style import DOWN, UP, labelled, new_figure  # loads Matplotlib
+
+        ax = new_figure().add_subplot() if ax is None else ax
+        sides = ((UP, 1, "↑", self.mean_up, self.s_up), (DOWN, -1, "↓", self.mean_down, self.s_down))
+        for colour, direction, arrow, mean, s in sides:
+            there = ~np.isnan(mean)
+            if not there.any():
+                continue
+            chosen = self.readings.directions == direction
+            targets, deviations = self.readings.targets[chosen], self.readings.deviations[chosen]
+            ax.plot(targets, deviations, ".", color=colour, ms=3.5, alpha=0.35)
+            known = there & ~np.isnan(s)
+            if known.any():
+                x, low, high = self.positions[known], (mean - 2.0 * s)[known], (mean + 2.0 * s)[known]
+                ax.fill_between(x, low, high, color=colour, alpha=0.13, lw=0, label=f"x̄{arrow} ± 2s{arrow}")
+                for edge in (low, high):
+                    ax.plot(x, edge, color=colour, lw=0.7, alpha=0.7)
+            ax.plot(self.positions[there], mean[there], "o-", color=colour, ms=4, lw=1.4, label=f"x̄{arrow}")
+        if np.any(~np.isnan(self.mean)):
+            ax.plot(self.positions, self.mean, "--", color="0.25", lw=1.1, label="x̄")
+        ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+        shown = {SYMBOLS[name]: getattr(self, name) for name in ("A", "R", "E", "M", "B")}
+        figures = [f"{name} = {value:.1f}" for name, value in shown.items() if not math.isnan(value)]
+        title = f"Positioning of axis {self.axis}" if self.axis else "Positioning"
+        title += f":  {',  '.join(figures)} {self.unit}" if figures else ""
+        ax.legend(loc="best", ncols=3, fontsize=10, framealpha=0.9)
+        position = f"target position [{symbol(self.position_unit)}]"
+        return labelled(ax, title, position, f"deviation, actual − target [{self.unit}]")
 
     def __repr__(self) -> str:
         figures = ", ".join(
@@ -169,26 +199,18 @@ class Iso230Result:
 
 
 def evaluate(measurement: Positioning, conditions: Conditions | None = None) -> Iso230Result:
-    """Evaluate a positioning measurement.
+    """Evaluate a positioning measurement of any number of runs; targets may be missing in some.
 
-    Parameters
-    ----------
-    measurement : Positioning
-        Any number of runs; targets may be missing in some.
-    conditions : Conditions, optional
-        Of the test; with them the result has expanded uncertainties.
-
-    Raises
-    ------
-    ValueError
-        Conditions were given for a rotary axis.
+    With the conditions of the test the result has expanded uncertainties. ValueError if they are given for a rotary
+    axis.
     """
     if conditions is not None and measurement.unit != "mm":
         raise ValueError("conditions of a test, and uncertainties from them, are for linear axes only")
     positions, _, deviations = measurement.grid()
     counts = np.sum(~np.isnan(deviations), axis=2)
-    means = _mean(deviations, counts)
-    s = _standard_deviation(deviations, means, counts)
+    means = np.nansum(deviations, axis=2) / np.where(counts > 0, counts, np.nan)
+    squares = np.nansum((deviations - means[:, :, None]) ** 2, axis=2)
+    s = np.sqrt(squares / np.where(counts > 1, counts - 1.0, np.nan))
     mean_up, mean_down = means
     s_up, s_down = s
     mean, reversal = (mean_up + mean_down) / 2.0, mean_up - mean_down
@@ -234,29 +256,14 @@ def evaluate(measurement: Positioning, conditions: Conditions | None = None) -> 
     travel = float(positions[-1] - positions[0])
     runs = int(min((n for n in counts.ravel() if n > 0), default=1))
     uncertainty = conditions.of_parameters(travel, runs)
-    object.__setattr__(
-        result, "uncertainty", {k: u for k, u in uncertainty.items() if not math.isnan(getattr(result, k))}
-    )
-    return result
+    known = {name: u for name, u in uncertainty.items() if not math.isnan(getattr(result, name))}
+    return replace(result, uncertainty=known)
 
 
 def mean_uncertainty(s: Array, count: npt.NDArray[np.int64]) -> Array:
     """Return the expanded uncertainty (k = 2) of means from the scatter alone, 2 s/√n (JCGM 100:2008, 4.2.3)."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return 2.0 * s / np.sqrt(count)
-
-
-def _mean(deviations: Array, counts: npt.NDArray[np.int64]) -> Array:
-    with np.errstate(invalid="ignore"):
-        mean: Array = np.nansum(deviations, axis=2) / counts
-    return mean
-
-
-def _standard_deviation(deviations: Array, means: Array, counts: npt.NDArray[np.int64]) -> Array:
-    squares = np.nansum((deviations - means[:, :, None]) ** 2, axis=2)
-    degrees = np.where(counts > 1, counts - 1.0, np.nan)
-    s: Array = np.sqrt(squares / degrees)
-    return s
 
 
 def _spread(upper: Array, lower: Array) -> float:

@@ -5,10 +5,9 @@ Deviations are *actual − target* in the unit that small values are shown in: �
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +15,7 @@ import numpy.typing as npt
 from ..engine.motion import Array
 from ..model.quantity import shown
 from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, read_columns
+from .readings import Readings, whole_runs
 from .renishaw import is_rtl, read_rtl
 
 TARGET_DIGITS = 6
@@ -30,29 +30,14 @@ COLUMNS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Positioning:
-    """Readings at targets, in any order.
+class Positioning(Readings):
+    """Readings at targets, in any order; arrays have shape (n,).
 
-    Attributes
-    ----------
-    targets : array, shape (n,)
-        Where each reading was taken, mm or °.
-    runs : array of int, shape (n,)
-        Number of the run, counted from 1 in each direction.
-    directions : array of int, shape (n,)
-        1 or −1: from which side the target was approached.
-    deviations : array, shape (n,)
-        Actual − target, µm or ″.
-    unit : str
-        Of the targets: ``mm`` or ``deg``.
-    axis : str
-        Its name, "" if the file does not say.
-    source : str
-        The file or files.
-    deviating_unit : str
-        Where another axis than the one at the targets deviates, what that one counts in; else "".
-    details : mapping of str to str
-        What else the file says about the measurement.
+    ``targets``: where each reading was taken, in ``unit``, ``mm`` or ``deg``; ``runs``: number of the run, counted from
+    1 in each direction; ``directions``: 1 or −1, from which side the target was approached; ``deviations``: actual −
+    target, µm or ″. ``axis`` is its name, "" if the file does not say, ``source`` the file or files, ``details`` what
+    else the file says. Where another axis than the one at the targets deviates, ``deviating_unit`` is what that one
+    counts in; else "".
     """
 
     targets: Array
@@ -77,105 +62,33 @@ class Positioning:
 
     def grid(self) -> tuple[Array, npt.NDArray[np.int64], Array]:
         """Return targets (m,), runs (k,) and deviations (2, m, k): first positive direction, NaN where nothing is."""
-        targets, place = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
+        targets, target = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
         runs, run = np.unique(self.runs, return_inverse=True)
         deviations = np.full((2, len(targets), len(runs)), np.nan)
-        deviations[(self.directions < 0).astype(int), place, run] = self.deviations
+        deviations[(self.directions < 0).astype(int), target, run] = self.deviations
         return targets, runs, deviations
 
-    def only(self, chosen: npt.NDArray[np.bool_]) -> Positioning:
-        """Return the measurement with some of its readings."""
-        return self.with_deviations(self.deviations, chosen)
-
-    def with_deviations(self, deviations: Array, chosen: npt.NDArray[np.bool_] | None = None) -> Positioning:
+    def with_deviations(self, deviations: Array) -> Positioning:
         """Return the measurement with other deviations, (n,)."""
-        keep = np.ones(len(self.targets), dtype=bool) if chosen is None else chosen
-        return replace(
-            self,
-            targets=self.targets[keep],
-            runs=self.runs[keep],
-            directions=self.directions[keep],
-            deviations=deviations[keep],
-        )
+        return replace(self, deviations=deviations)
 
 
 def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Positioning:
     """Read a measurement: Renishaw ``.rtl``, else a table with ``target, run, direction, deviation``.
 
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-    of_another_axis : bool
-        Not the axis at the targets deviates but one that follows it; targets may then be angles and deviations lengths.
+    ``of_another_axis``: not the axis at the targets deviates but one that follows it; targets may then be angles and
+    deviations lengths.
 
     Raises
     ------
     MeasurementError
-        The file cannot be read, or a line of it; it names the place.
+        The file cannot be read, or a line of it; it names file and line.
     """
     path = Path(path)
     if is_rtl(path):
-        linear = read_rtl(path)
-        return Positioning(
-            linear.targets,
-            linear.runs,
-            linear.directions,
-            linear.deviations,
-            axis=linear.details.get("axis", ""),
-            source=str(path),
-            details=linear.details,
-        )
+        readings, details = read_rtl(path)
+        return Positioning(*readings, axis=details.get("axis", ""), source=str(path), details=details)
     return _from_columns(read_columns(path, COLUMNS), of_another_axis)
-
-
-class InRuns(Protocol):
-    """A measurement: a dataclass of arrays with one element a reading, and of what these have in common."""
-
-    __dataclass_fields__: ClassVar[dict[str, Any]]
-
-    @property
-    def runs(self) -> npt.NDArray[np.int64]:
-        """Run of each reading."""
-
-    @property
-    def source(self) -> str:
-        """The file or files."""
-
-
-Measurement = TypeVar("Measurement", bound=InRuns)
-
-
-def joined(measurements: Sequence[Measurement]) -> Measurement:
-    """Return several measurements of the same as one; the runs of later ones are counted on.
-
-    Raises
-    ------
-    MeasurementError
-        They are not of the same unit.
-    """
-    first = measurements[0]
-    names = [item.name for item in fields(first)]
-    for other in measurements[1:]:
-        for name in names:
-            if name.endswith("unit") and getattr(other, name) != getattr(first, name):
-                sentence = f"It is in {getattr(other, name)}, {first.source} in {getattr(first, name)}."
-                raise MeasurementError(other.source, 0, sentence)
-    arrays = [name for name in names if isinstance(getattr(first, name), np.ndarray)]
-    stacked: dict[str, Any] = {name: np.concatenate([getattr(m, name) for m in measurements]) for name in arrays}
-    passed = np.cumsum([0, *(m.runs.max() for m in measurements[:-1])])
-    stacked["runs"] = np.concatenate([m.runs + n for m, n in zip(measurements, passed, strict=True)])
-    stacked["source"] = ", ".join(dict.fromkeys(m.source for m in measurements))
-    return replace(first, **stacked)
-
-
-def whole_runs(columns: Columns) -> npt.NDArray[np.int64]:
-    """Return the column ``run``, 1 everywhere where there is none; MeasurementError if a run is no whole number."""
-    runs = columns.values.get("run", np.ones(len(columns.lines)))
-    for line, run in zip(columns.lines, runs, strict=True):
-        if run != np.floor(run) or not 0 <= run < 10**6:
-            raise MeasurementError(columns.file, int(line), f"{run:g} is no number of a run; 1, 2, … are.")
-    return runs.astype(np.int64)
 
 
 def unit_of(rotary: bool) -> str:
@@ -198,12 +111,11 @@ def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
     targets = columns.positions("target")
     directions = columns.values["direction"].astype(np.int64)
     seen: dict[tuple[float, int, int], int] = {}
-    for *key, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):
-        place = (float(key[0]), int(key[1]), int(key[2]))
-        if place in seen:
-            sentence = f"Target {place[0]:g} of run {place[1]} is there already, in line {seen[place]}."
+    for *reading, line in zip(np.round(targets, TARGET_DIGITS), runs, directions, columns.lines, strict=True):
+        first = seen.setdefault((reading[0], reading[1], reading[2]), line)
+        if first != line:
+            sentence = f"Target {reading[0]:g} of run {reading[1]} is there already, in line {first}."
             raise MeasurementError(columns.file, int(line), sentence)
-        seen[place] = int(line)
     return Positioning(
         targets,
         runs,

@@ -13,8 +13,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -28,15 +27,8 @@ _SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _-]*?)\s*::\s*\Z")
 _FIELD = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _.-]*?)\s*:\s*(.*?)\s*\Z")
 
 
-@dataclass(frozen=True, eq=False)
-class LinearFile:
-    """What a file says: see ``positioning.Positioning``; targets in mm, deviations in µm."""
-
-    targets: Array
-    runs: npt.NDArray[np.int64]
-    directions: npt.NDArray[np.int64]
-    deviations: Array
-    details: Mapping[str, str]
+LinearReadings = tuple[Array, npt.NDArray[np.int64], npt.NDArray[np.int64], Array]
+"""Targets in mm, runs, directions and deviations in µm, as in ``positioning.Positioning``."""
 
 
 def is_rtl(path: Path) -> bool:
@@ -44,13 +36,13 @@ def is_rtl(path: Path) -> bool:
     return path.suffix.lower() == SUFFIX
 
 
-def read_rtl(path: Path) -> LinearFile:
-    """Read a file; MeasurementError, with the line, if it is damaged."""
+def read_rtl(path: Path) -> tuple[LinearReadings, dict[str, str]]:
+    """Return readings and details of a file; MeasurementError, with the line, if it is damaged."""
     reader = _Reader(str(path))
     for line, written in enumerate(read_text(path).split("\n"), 1):
         if written.strip():
             reader.take(line, written)
-    return reader.result()
+    return reader.readings(), reader.details
 
 
 class _Reader:
@@ -63,7 +55,7 @@ class _Reader:
         self._counts: dict[str, tuple[int, int]] = {}
         self._targets: list[float] = []
         self._readings: list[tuple[int, int, float, int]] = []
-        self._details: dict[str, str] = {}
+        self.details: dict[str, str] = {}
 
     def take(self, line: int, written: str) -> None:
         """Take one line that is not blank."""
@@ -76,7 +68,7 @@ class _Reader:
             if self._field in ("target-count", "run-count"):
                 self._counts[self._field] = self._whole(line, rest), line
             elif self._section in ("HEADER", "USER-TEXT") and rest:
-                self._details.setdefault(self._field, rest)
+                self.details.setdefault(self._field, rest)
         if self._section == "TARGET DATA" and self._field == "targets":
             self._targets += [self._number(line, word) for word in rest.split()]
         elif self._section == "DEVIATIONS" and self._field == "run target data" and rest.strip():
@@ -90,7 +82,7 @@ class _Reader:
             raise self._error(line, f"There is no target {target}; the file has {len(self._targets)}.")
         self._readings.append((run, target - 1, self._number(line, words[2]), line))
 
-    def result(self) -> LinearFile:
+    def readings(self) -> LinearReadings:
         """Return all readings with their directions."""
         if not self._targets:
             raise self._error(0, "There are no targets in it (section TARGET DATA); is it a linear measurement?")
@@ -99,17 +91,13 @@ class _Reader:
         self._check_count("target-count", len(self._targets), "targets")
         self._check_count("run-count", len({run for run, *_ in self._readings}), "runs")
         directions = self._directions()
-        passed = {1: 0, -1: 0}
-        number: dict[int, int] = {}
-        for run, direction in directions.items():
-            passed[direction] += 1
-            number[run] = passed[direction]
-        return LinearFile(
+        numbers = {1: count(1), -1: count(1)}
+        number = {run: next(numbers[direction]) for run, direction in directions.items()}
+        return (
             np.array([self._targets[target] for _, target, _, _ in self._readings]),
             np.array([number[run] for run, *_ in self._readings]),
             np.array([directions[run] for run, *_ in self._readings]),
             np.array([deviation for _, _, deviation, _ in self._readings]),
-            self._details,
         )
 
     def _directions(self) -> dict[int, int]:
@@ -124,12 +112,12 @@ class _Reader:
                     raise self._error(line, f"The targets of run {run} neither only ascend nor only descend here.")
             last[run] = position
         # A run of one target has no direction of its own: runs go there and back by turns.
-        return {run: directions.get(run, 1 if place % 2 == 0 else -1) for place, run in enumerate(last)}
+        return {run: directions.get(run, 1 if turn % 2 == 0 else -1) for turn, run in enumerate(last)}
 
     def _check_count(self, name: str, found: int, what: str) -> None:
-        count, line = self._counts.get(name, (found, 0))
-        if count < found or (count != found and name == "target-count"):
-            raise self._error(line, f"The file has {found} {what}, not {count}.")
+        stated, line = self._counts.get(name, (found, 0))
+        if stated < found or (stated != found and name == "target-count"):
+            raise self._error(line, f"The file has {found} {what}, not {stated}.")
 
     def _number(self, line: int, word: str) -> float:
         try:

@@ -5,7 +5,7 @@ distributed between them: a range R contributes ``U = 2 · R / √12 = R/√3`` 
 
     U_DEVICE       = device · L                           calibration of the instrument, stated with k = 2
     U_MISALIGNMENT = misalignment² / (2 √3 L)             the cosine error is between 0 and misalignment² / 2L
-    U_M            = α · L · temperature_range / √3       the temperature of the machine is known within this range
+    U_M            = α · L · temperature_range / √3       how warm the machine is, is known within this range
     U_E            = α_range · L · |ΔT| / √3              α is known within this range, ΔT from 20 °C
     U_EVE          = drift / √3                           range of the readings of an axis at rest during the test
 
@@ -20,7 +20,8 @@ The first four, ``U_L`` together, act on every length alike; drift acts on every
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
+from typing import Any
 
 from ..model.quantity import shown
 
@@ -31,26 +32,13 @@ MICRO = shown("mm").factor
 """mm to µm."""
 
 
+def _condition(unit: str, meaning: str, default: float = 0.0) -> Any:
+    return field(default=default, metadata={"unit": unit, "meaning": meaning})
+
+
 @dataclass(frozen=True)
 class Conditions:
     """Of a test on a linear axis; what is left at 0 does not contribute.
-
-    Attributes
-    ----------
-    device : float
-        Expanded uncertainty (k = 2) of the instrument, µm per m of travel.
-    misalignment : float
-        How far instrument and axis may be out of line over the travel, mm.
-    temperature_range : float
-        Range within which the temperature of the machine is known, K.
-    temperature_offset : float
-        Temperature of the machine minus 20 °C, K.
-    expansion : float
-        Coefficient of the machine's scale, 10⁻⁶/K.
-    expansion_range : float
-        Range within which that coefficient is known, 10⁻⁶/K.
-    drift : float
-        Environmental variation error E_VE: range of readings at rest over the time of a test, µm.
 
     Raises
     ------
@@ -58,13 +46,13 @@ class Conditions:
         One is negative (other than ``temperature_offset``) or not finite.
     """
 
-    device: float = 0.0
-    misalignment: float = 0.0
-    temperature_range: float = 0.0
-    temperature_offset: float = 0.0
-    expansion: float = 11.7
-    expansion_range: float = 2.0
-    drift: float = 0.0
+    device: float = _condition("µm/m", "expanded uncertainty (k = 2) of the instrument")
+    misalignment: float = _condition("mm", "how far instrument and axis may be out of line over the travel")
+    temperature_range: float = _condition("K", "range within which it is known how warm the machine is")
+    temperature_offset: float = _condition("K", "how much warmer than 20 °C the machine is")
+    expansion: float = _condition("1e-6/K", "expansion coefficient of the machine's scale", 11.7)
+    expansion_range: float = _condition("1e-6/K", "range within which that is known", 2.0)
+    drift: float = _condition("µm", "environmental variation error E_VE: range of readings at rest")
 
     def __post_init__(self) -> None:
         for item in fields(self):

@@ -241,5 +241,18 @@ class Machine:
         members = self.members(volumetric)
         return frozenset(self.axes[place].number for place, letter in members.items() if letter in LINEAR)
 
+    def error_nodes(self) -> dict[int, list[float]]:
+        """Return the positions of each axis, by number, at which some volumetric error has a node, ascending.
+
+        Those of all compensations: one of the rotary axes alone has no table over X, Y and Z.
+        """
+        found: dict[int, set[float]] = {}
+        for one in self.volumetric:
+            numbers = dict(one.axes)
+            for table in one.errors:
+                for letter in table.arguments:
+                    found.setdefault(numbers[letter], set()).update(table.positions(letter))
+        return {number: sorted(positions) for number, positions in found.items()}
+
     def __repr__(self) -> str:
         return "Machine(\n" + "".join(f"  {part!r},\n" for part in (*self.axes, *self.volumetric)) + ")"

@@ -113,6 +113,11 @@ class ErrorTable:
     nodes: tuple[tuple[float, ...], ...] = ((),)
     interpolation: Interpolation = Interpolation.GRID
 
+    def positions(self, letter: str) -> list[float]:
+        """Return the positions of one of the arguments' axes, node by node."""
+        column = self.arguments.index(letter)
+        return [node[column] for node in self.nodes]
+
     def __repr__(self) -> str:
         if not self.arguments:
             return f"ErrorTable({self.name} = {self.values[0]:g})"
@@ -182,6 +187,10 @@ class Volumetric:
     max_records: int = 1000
     files: tuple[str, ...] = field(default=(), compare=False)
     diagnosis_file: str = field(default="", compare=False)
+
+    def sign(self, letter: str) -> float:
+        """Return what counts of the correction of a linear axis: −1 where it is negated, 0 where it is left out."""
+        return 0.0 if letter in self.set_to_zero else -1.0 if letter in self.negate else 1.0
 
     def description(self) -> Iterator[tuple[str, float]]:
         """Yield name and value of the describing parameters that are not at their defaults (never ``LN*``)."""

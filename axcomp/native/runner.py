@@ -11,7 +11,7 @@ import numpy as np
 
 from ..interface.variable import Variable
 from ..kernel.record import Vec
-from ..kernel.records import Inputs, Outputs, State, Tables
+from ..kernel.records import Inputs, Outputs, Tables
 from ..runtime.runtime import Runtime
 from .layout import ctypes_of, from_c, offset_of, to_c
 
@@ -28,14 +28,7 @@ class _Field(ctypes.Structure):
 class CompiledTables:
     """Tables as C has them; making them costs more than many cycles, so they are kept as long as they are in force.
 
-    Attributes
-    ----------
-    tables : Tables
-        What they were made of; the kernel never changes tables.
-    structure : ctypes.Structure
-        The same in C.
-    pool : ndarray
-        The numbers that they point into.
+    ``tables``: what they were made of, which the kernel never changes; ``pool``: the numbers that they point into.
     """
 
     def __init__(self, tables: Tables, pool: Vec) -> None:
@@ -56,36 +49,18 @@ def run_compiled(
 ) -> NDArray[np.float64]:
     """Run one cycle for each row; the runtime is then where as many calls of ``cycle`` had brought it.
 
-    Parameters
-    ----------
-    kernel : CDLL
-        From ``library.compiled_kernel``.
-    compiled : CompiledTables
-        Of the runtime's tables.
-    runtime : Runtime
-        Its state, inputs and outputs go into the kernel and come back.
-    given : sequence of Variable
-        Inputs of the columns.
-    rows : ndarray, shape (n, len(given))
-        C-contiguous; Booleans are 0 or 1.
-    results : sequence of Variable
-        Outputs wanted.
-
-    Returns
-    -------
-    ndarray, shape (n, len(results))
+    ``kernel`` comes from ``library.compiled_kernel``, ``compiled`` are the runtime's tables; its state, inputs and
+    outputs go into the kernel and come back. ``rows``, shape (n, len(given)), C-contiguous, are the inputs ``given``,
+    Booleans 0 or 1. Returns the outputs ``results``, shape (n, len(results)).
     """
-    state, inputs, outputs = ctypes_of(State)(), ctypes_of(Inputs)(), ctypes_of(Outputs)()
-    records = ((runtime.state, state), (runtime.inputs, inputs), (runtime.outputs, outputs))
+    records = [(record, ctypes_of(type(record))()) for record in (runtime.state, runtime.inputs, runtime.outputs)]
     for record, struct in records:
         to_c(record, struct)
     values = np.empty((len(rows), len(results)))
     kernel.axcomp_run(
         ctypes.byref(compiled.structure),
         compiled.pool.ctypes.data_as(DOUBLES),
-        ctypes.byref(state),
-        ctypes.byref(inputs),
-        ctypes.byref(outputs),
+        *(ctypes.byref(struct) for _, struct in records),
         ctypes.c_int64(len(rows)),
         _fields(Inputs, given),
         ctypes.c_int32(len(given)),
@@ -103,11 +78,11 @@ def run_compiled(
 def _fields(cls: Any, variables: Sequence[Variable]) -> Any:
     fields = (_Field * len(variables))()
     for field, variable in zip(fields, variables, strict=True):
-        place = ""
+        owner = ""
         if variable.axis is not None:
-            place = f"axis[{variable.axis}]."
+            owner = f"axis[{variable.axis}]."
         elif variable.volumetric is not None:
-            place = f"volumetric[{variable.volumetric}]."
-        field.offset = offset_of(cls, place + variable.field)
+            owner = f"volumetric[{variable.volumetric}]."
+        field.offset = offset_of(cls, owner + variable.field)
         field.type = {float: b"r", bool: b"b", int: b"i"}[type(variable.start)]
     return fields

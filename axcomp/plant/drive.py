@@ -24,16 +24,8 @@ STATE = ("position", "velocity", "integral", "current", "setpoint", "reference",
 class Drive:
     """A drive with its mass, in mm or °, s and mA.
 
-    Attributes
-    ----------
-    position, velocity : float
-        Of the mass, as the encoder sees it.
-    acceleration : float
-        Mean over the last step.
-    current : float
-        Motor current, mA.
-    lag : float
-        Interpolated setpoint − position: the following error.
+    ``position`` and ``velocity`` are those of the mass, as the encoder sees it; ``acceleration`` is the mean over the
+    last step; ``current`` that of the motor; ``lag``, interpolated setpoint − position, the following error.
     """
 
     def __init__(self, description: Mapping[str, Any], rotary: bool, modulo: float) -> None:

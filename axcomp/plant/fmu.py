@@ -18,17 +18,16 @@ from .machine import FILE_NAME, Plant
 STEP_SIZE = 0.001
 
 
-def read_plant(folder: Path) -> tuple[tuple[Variable, ...], Path]:
-    """Return the variables of the plant in a model's folder, and the file that describes it.
+def plant_variables(folder: Path) -> tuple[Variable, ...]:
+    """Return the variables of the plant in a model's folder.
 
     Raises
     ------
     BuildError
         If the file is missing or wrong.
     """
-    file = folder / FILE_NAME
     try:
-        plant = Plant.from_file(file)
+        plant = Plant.from_file(folder / FILE_NAME)
     except ValueError as error:
         raise BuildError(str(error)) from None
     present = [d for d in declared.OF_AXIS if not d.of_bodies or plant.bodies]
@@ -49,18 +48,13 @@ def read_plant(folder: Path) -> tuple[tuple[Variable, ...], Path]:
     if plant.bodies:
         first = declared.BLOCK * len(plant.names)
         variables += [
-            Variable(d.name, first + place, d.causality, 0.0, d.description, d.unit, depends_on=None)
-            for place, d in enumerate(declared.OF_MACHINE)
+            Variable(d.name, first + offset, d.causality, 0.0, d.description, d.unit, depends_on=None)
+            for offset, d in enumerate(declared.OF_MACHINE)
         ]
-    return tuple(variables), file
+    return tuple(variables)
 
 
-def package_plant(
-    model: str | os.PathLike[str],
-    output: str | os.PathLike[str],
-    *,
-    external_tool: bool = True,
-) -> Path:
+def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str], *, external_tool: bool = True) -> Path:
     """Write the FMU of the plant that ``plant.json`` in a model's folder describes; a folder: ``plant.fmu`` in it.
 
     Raises
@@ -68,7 +62,7 @@ def package_plant(
     BuildError
         If the description is missing or wrong, pythonfmu is missing, or the file cannot be written.
     """
-    variables, file = read_plant(Path(model))
+    variables = plant_variables(Path(model))
     description = Description(
         name="plant",
         text="Drives, friction and geometric errors of a machine",
@@ -78,4 +72,4 @@ def package_plant(
         capabilities={"needsExecutionTool": external_tool},
     )
     sources = (fmu_sources() / "plant_slave.py", PACKAGE)
-    return write_python_fmu(output, description, variables, sources, {file.name: file_bytes(file)})
+    return write_python_fmu(output, description, variables, sources, {FILE_NAME: file_bytes(Path(model) / FILE_NAME)})

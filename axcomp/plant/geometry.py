@@ -1,27 +1,23 @@
 """The geometric errors of the machine: how far the tool is from where the encoders say it is.
 
-``true position = measured position + error``; an error is actual − nominal, positive along the axis. Each kind is a
-class with ``error(motion)``; ``AxisErrors`` adds those of one axis.
+``true position = measured position + error``; an error is actual − nominal, positive along the axis. Each sort of error
+is a function that takes its description in ``plant.json``; ``AxisErrors`` adds those of one axis.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from .curves import MILLI, Curve, Surface
 
 
-class Motion:
+class MotionState:
     """Where all axes are and how they move, in the order of the plant's axes.
 
-    Attributes
-    ----------
-    positions, velocities, accelerations : list of float
-        As the encoders see them: mm or °, per s, per s².
-    approach : list of float
-        −1 … 1: from which side the play of each axis was taken up last; ±1 is steady motion in that direction.
+    Positions, velocities and accelerations are what the encoders see: mm or °, per s, per s². ``approach``, −1 … 1:
+    from which side the play of each axis was taken up last; ±1 is steady motion in that direction.
     """
 
     def __init__(self, count: int) -> None:
@@ -31,98 +27,75 @@ class Motion:
         self.approach = [1.0] * count
 
 
-class Kind(Protocol):
-    """One kind of error of one axis."""
+ErrorOf = Callable[[MotionState], float]
+"""Error of one axis in mm or °."""
 
-    def error(self, motion: Motion) -> float:
-        """Return the error in mm or °."""
-
-
-class PitchError:
-    """Error of the own screw or gear: one curve for either direction, ``approach`` fades between them."""
-
-    def __init__(self, description: Mapping[str, Any], axis: int) -> None:
-        self.axis = axis
-        self.positive = Curve(description["positive"])
-        self.negative = Curve(description.get("negative", description["positive"]))
-
-    def error(self, motion: Motion) -> float:
-        """Return the error at the axis' own position."""
-        position = motion.positions[self.axis]
-        share = 0.5 * (1.0 + motion.approach[self.axis])
-        return MILLI * (share * self.positive(position) + (1.0 - share) * self.negative(position))
+FADE = 1.0
+"""Speed over which the direction of a deflection fades around standstill, mm/s or °/s."""
 
 
-class Sag:
-    """Sag of the axis, a curve over the position of one other."""
+def pitch_error(description: Mapping[str, Any], axis: int) -> ErrorOf:
+    """Return the error of the own screw or gear: one curve for either direction, ``approach`` fades between them."""
+    positive = Curve(description["positive"])
+    negative = Curve(description.get("negative", description["positive"]))
 
-    def __init__(self, description: Mapping[str, Any], names: Sequence[str]) -> None:
-        self.master = names.index(description["master"])
-        self.curve = Curve(description["curve"])
+    def error(motion: MotionState) -> float:
+        position, share = motion.positions[axis], 0.5 * (1.0 + motion.approach[axis])
+        return MILLI * (share * positive(position) + (1.0 - share) * negative(position))
 
-    def error(self, motion: Motion) -> float:
-        """Return the error at the master's position."""
-        return MILLI * self.curve(motion.positions[self.master])
-
-
-class PlaneError:
-    """Error of the axis over the positions of two others."""
-
-    def __init__(self, description: Mapping[str, Any], names: Sequence[str]) -> None:
-        self.master1, self.master2 = (names.index(name) for name in description["masters"])
-        self.surface = Surface(description["terms"])
-
-    def error(self, motion: Motion) -> float:
-        """Return the error at the masters' positions."""
-        return MILLI * self.surface(motion.positions[self.master1], motion.positions[self.master2])
+    return error
 
 
-class Crosstalk:
-    """Deflection of the axis while another accelerates: ``compliance · a · (1 + stiffening · a²) · (1 ± direction)``.
+def sag(description: Mapping[str, Any], names: Sequence[str]) -> ErrorOf:
+    """Return the sag of the axis, a curve over the position of one other."""
+    master, curve = names.index(description["master"]), Curve(description["curve"])
+    return lambda motion: MILLI * curve(motion.positions[master])
+
+
+def plane_error(description: Mapping[str, Any], names: Sequence[str]) -> ErrorOf:
+    """Return the error of the axis over the positions of two others."""
+    master1, master2 = (names.index(name) for name in description["masters"])
+    surface = Surface(description["terms"])
+    return lambda motion: MILLI * surface(motion.positions[master1], motion.positions[master2])
+
+
+def deflection(description: Mapping[str, Any], names: Sequence[str]) -> ErrorOf:
+    """Return the deflection while another accelerates: ``compliance · a · (1 + stiffening · a²) · (1 ± direction)``.
 
     ``compliance`` is a surface over the axes ``over`` in thousandths of the unit per m/s², a in m/s², ``stiffening`` in
-    (m/s²)⁻², ``direction`` the share by which motion in positive direction deflects more than in negative; around
-    standstill the direction fades over ``FADE``.
+    (m/s²)⁻², ``direction`` the share by which motion in positive direction deflects more than in negative.
     """
+    master = names.index(description["master"])
+    over1, over2 = (names.index(name) for name in description["over"])
+    compliance = Surface(description["compliance"])
+    stiffening, direction = (float(description.get(name, 0.0)) for name in ("stiffening", "direction"))
 
-    FADE = 1.0
-    """mm/s or °/s"""
+    def error(motion: MotionState) -> float:
+        a = MILLI * motion.accelerations[master]
+        side = 1.0 + direction * math.tanh(motion.velocities[master] / FADE)
+        at = compliance(motion.positions[over1], motion.positions[over2])
+        return MILLI * at * a * (1.0 + stiffening * a * a) * side
 
-    def __init__(self, description: Mapping[str, Any], names: Sequence[str]) -> None:
-        self.master = names.index(description["master"])
-        self.over1, self.over2 = (names.index(name) for name in description["over"])
-        self.compliance = Surface(description["compliance"])
-        self.stiffening = float(description.get("stiffening", 0.0))
-        self.direction = float(description.get("direction", 0.0))
-
-    def error(self, motion: Motion) -> float:
-        """Return the error at the master's acceleration."""
-        a = MILLI * motion.accelerations[self.master]
-        side = 1.0 + self.direction * math.tanh(motion.velocities[self.master] / self.FADE)
-        compliance = self.compliance(motion.positions[self.over1], motion.positions[self.over2])
-        return MILLI * compliance * a * (1.0 + self.stiffening * a * a) * side
+    return error
 
 
 class AxisErrors:
     """All geometric errors of one axis.
 
-    Attributes
-    ----------
-    lost_motion : float
-        Travel after a reversal over which the axis takes up its play, mm or °: the pitch error changes its curve there.
+    ``lost_motion``: travel after a reversal over which the axis takes up its play, mm or °: the pitch error changes its
+    curve there.
     """
 
     def __init__(self, description: Mapping[str, Any], axis: int, names: Sequence[str]) -> None:
         pitch = description.get("pitch")
         self.lost_motion = float(pitch.get("lost_motion", 0.0)) if pitch else 0.0
-        self.kinds: list[Kind] = [PitchError(pitch, axis)] if pitch else []
-        self.kinds += [Sag(d, names) for d in description.get("sag", [])]
-        self.kinds += [PlaneError(d, names) for d in description.get("plane", [])]
-        self.kinds += [Crosstalk(d, names) for d in description.get("crosstalk", [])]
+        self.parts: list[ErrorOf] = [pitch_error(pitch, axis)] if pitch else []
+        for name, part in (("sag", sag), ("plane", plane_error), ("crosstalk", deflection)):
+            self.parts += [part(d, names) for d in description.get(name, [])]
 
-    def error(self, motion: Motion) -> float:
+    def error(self, motion: MotionState) -> float:
         """Return true − measured position, mm or °."""
-        return sum(kind.error(motion) for kind in self.kinds)
+        return sum(part(motion) for part in self.parts)
 
     def take_up(self, approach: float, travel: float) -> float:
         """Return ``approach`` after ``travel`` mm or °."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .drive import STATE, Drive
-from .geometry import AxisErrors, Motion
+from .geometry import AxisErrors, MotionState
 from .poses import Vector
 from .rigid_bodies import RigidBodies
 
@@ -27,21 +27,9 @@ class PlantError(ValueError):
 class Plant:
     """Drives, masses and geometric errors of a machine.
 
-    Parameters
-    ----------
-    description : Mapping
-        ``sub_step`` in s and ``axes``, one for each, as in ``models/*/plant.json``; ``rigid_bodies`` (see there) for a
-        machine whose tool tip is of interest.
-
-    Attributes
-    ----------
-    names : tuple of str
-        The axes; everything else that is a list of axes has their order.
-    units : tuple of str
-        ``mm`` or ``deg``.
-    modulo : tuple of float
-        Range of a modulo axis in °, 0.0 for the others.
-    bodies : RigidBodies or None
+    The description has ``sub_step`` in s and ``axes``, one for each, as in ``models/*/plant.json``, and
+    ``rigid_bodies`` (see there) for a machine whose tool tip is of interest. Everything that is a list of axes has the
+    order of ``names``; ``units`` are ``mm`` or ``deg``, ``modulo`` the range of a modulo axis in °, 0.0 for the others.
     """
 
     def __init__(self, description: Mapping[str, Any]) -> None:
@@ -69,7 +57,7 @@ class Plant:
                 self.bodies = RigidBodies(description["rigid_bodies"], self.names, [unit == "deg" for unit in units])
             except WRONG as error:
                 raise PlantError(f"rigid_bodies: {_what(error)}") from error
-        self.motion = Motion(len(axes))
+        self.motion = MotionState(len(axes))
         self.rest_at([0.0] * len(axes))
 
     @classmethod

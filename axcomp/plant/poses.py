@@ -27,12 +27,7 @@ class Pose(NamedTuple):
     def place_back(self, point: Vector) -> Vector:
         """Return a point of the carrying body as the carried one sees it: the inverse of ``place``."""
         x, y, z = (point[k] - self.position[k] for k in range(3))
-        first, second, third = self.rows
-        return (
-            first[0] * x + second[0] * y + third[0] * z,
-            first[1] * x + second[1] * y + third[1] * z,
-            first[2] * x + second[2] * y + third[2] * z,
-        )
+        return vector([a * x + b * y + c * z for a, b, c in zip(*self.rows, strict=True)])
 
 
 def vector(values: Sequence[float]) -> Vector:

@@ -1,17 +1,17 @@
 """The machine as a chain of rigid bodies from the workpiece over the bed to the tool: where the tool tip really is.
 
 Each axis is a joint that carries one body on another, and does so imperfectly: its direction is tilted, a rotary axis
-lies beside its place, and whatever it carries moves a little in all six degrees of freedom along with its position.
-Each body is carried by one pose ``motion(q) · nominal motion along or about the displaced axis``; seen from the
-workpiece the tool tip is where the poses from the tool to the bed put it, and back through those up to the workpiece.
+is offset, and whatever it carries moves a little in all six degrees of freedom along with its position. Each body is
+carried by one pose ``motion(q) · nominal motion along or about the displaced axis``; seen from the workpiece the tool
+tip is where the poses from the tool to the bed put it, and back through those up to the workpiece.
 
-All bodies stand at their nominal places when all axes are at 0: there the machine is referenced and measured from.
+All bodies stand where they nominally do when all axes are at 0: there the machine is referenced and measured from.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from .curves import MILLI, Curve
@@ -24,14 +24,10 @@ SHIFTS, TURNS = ("x", "y", "z"), ("a", "b", "c")
 class Joint:
     """An axis between two bodies, given in the machine's coordinates.
 
-    Parameters
-    ----------
-    description : Mapping
-        ``direction`` of the axis; ``center``, a point on it (rotary axes); ``offset`` in µm by which a rotary axis lies
-        beside that point; ``tilt`` of the direction in µrad; and ``motion``, curves over the axis' position, ``x``,
-        ``y``, ``z`` in µm and ``a``, ``b``, ``c`` in µrad. What is not given is 0.
-    rotary : bool
-        Turns about its direction rather than travel along it.
+    The description has ``direction`` of the axis; ``center``, a point on it (rotary axes); ``offset`` in µm by which a
+    rotary axis lies beside that point; ``tilt`` of the direction in µrad; and ``motion``, curves over the axis'
+    position, ``x``, ``y``, ``z`` in µm and ``a``, ``b``, ``c`` in µrad. What is not given is 0. A rotary one turns
+    about its direction rather than travel along it.
     """
 
     def __init__(self, description: Mapping[str, Any], rotary: bool) -> None:
@@ -85,16 +81,10 @@ class _Deviation:
 class RigidBodies:
     """The chain of joints.
 
-    Parameters
-    ----------
-    description : Mapping
-        ``workpiece``: names of the axes that carry the workpiece, ``tool``: of those that carry the tool, both in the
-        order from workpiece to tool; ``axes``: a description of each (see ``Joint``); ``tool_position``: where the tool
-        would be with length 0 when all axes are at 0, mm; ``tool_direction``: from there to the tip.
-    names : sequence of str
-        The plant's axes, in the order of all positions here.
-    rotary : sequence of bool
-        Which of them are.
+    The description has ``workpiece``: names of the axes that carry the workpiece, ``tool``: of those that carry the
+    tool, both in the order from workpiece to tool; ``axes``: a description of each (see ``Joint``); ``tool_position``:
+    where the tool would be with length 0 when all axes are at 0, mm; ``tool_direction``: from there to the tip.
+    ``names`` are the plant's axes, in the order of all positions here, ``rotary`` tells which of them are.
     """
 
     def __init__(self, description: Mapping[str, Any], names: Sequence[str], rotary: Sequence[bool]) -> None:
@@ -115,25 +105,19 @@ class RigidBodies:
     def place(self, point: Vector, positions: Sequence[float]) -> Vector:
         """Return where a point that moves with the tool is, seen from the workpiece, mm.
 
-        Parameters
-        ----------
-        point : (float, float, float)
-            Where it is when all axes are at 0, mm.
-        positions : sequence of float
-            Of all axes, mm or °.
+        ``point``: where it is when all axes are at 0, mm; ``positions``: of all axes, mm or °.
         """
-        for index, joint in reversed(self.tool):
-            point = joint.actual(positions[index]).place(point)
-        for index, joint in reversed(self.workpiece):
-            point = joint.actual(positions[index]).place_back(point)
-        return point
+        return self._seen(point, positions, Joint.actual)
 
     def nominal_place(self, point: Vector, positions: Sequence[float]) -> Vector:
         """Return where the point would be on a perfect machine."""
+        return self._seen(point, positions, Joint.nominal)
+
+    def _seen(self, point: Vector, positions: Sequence[float], pose: Callable[[Joint, float], Pose]) -> Vector:
         for index, joint in reversed(self.tool):
-            point = joint.nominal(positions[index]).place(point)
+            point = pose(joint, positions[index]).place(point)
         for index, joint in reversed(self.workpiece):
-            point = joint.nominal(positions[index]).place_back(point)
+            point = pose(joint, positions[index]).place_back(point)
         return point
 
 

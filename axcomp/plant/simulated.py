@@ -24,14 +24,14 @@ def load_plant(folder: Path) -> Plant:
 
 
 def deviation(plant: Plant, axis: str, at: Mapping[str, float], direction: int = 1) -> float:
-    """Return actual − commanded position of an axis, all standing ``at`` these places (others at 0).
+    """Return actual − commanded position of an axis, all standing ``at`` these positions (others at 0).
 
     Every axis has come from the side that ``direction`` (±1) says.
     """
-    places = [at.get(name, 0.0) for name in plant.names]
-    plant.rest_at(places, [float(direction)] * len(places))
+    commanded = [at.get(name, 0.0) for name in plant.names]
+    plant.rest_at(commanded, [float(direction)] * len(commanded))
     index = plant.names.index(axis)
-    return plant.true[index] - places[index]
+    return plant.true[index] - commanded[index]
 
 
 def positioning(plant: Plant, axis: str, targets: Sequence[float], direction: int) -> list[float]:
@@ -78,8 +78,8 @@ def acceleration_test(
 ) -> float:
     """Return how far the slave gives way at an acceleration of the master with sign, in one direction of motion.
 
-    The master passes its place in ``at`` in the middle of the constant acceleration. ``acceleration`` · ``direction``
-    > 0 sets it in motion, < 0 brakes it.
+    The master passes its position in ``at`` in the middle of the constant acceleration.
+    ``acceleration`` · ``direction`` > 0 sets it in motion, < 0 brakes it.
     """
     # Times that are whole numbers of cycles, so that the acceleration is met exactly.
     limits = Limits(velocity=0.15 * abs(acceleration), acceleration=abs(acceleration), jerk=abs(acceleration) / 0.04)
@@ -98,7 +98,7 @@ def acceleration_test(
     for cycle, position in enumerate(path.position):
         setpoints[moving] = start[master] + float(position)
         plant.step(setpoints, [0.0] * len(setpoints), CYCLE_TIME)
-        # The drive follows a cycle and a half behind: take the mean around the moment it passes the place.
+        # The drive follows a cycle and a half behind: take the mean around the moment it passes the position.
         if abs(cycle - middle - 1.5) <= 5.0:
             passing.append(plant.true[index])
     moved = float(np.mean(passing))

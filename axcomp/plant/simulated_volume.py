@@ -24,12 +24,8 @@ REFLECTORS = ((150.0, 0.0, -120.0), (-150.0, 0.0, -120.0), (0.0, 150.0, -250.0),
 class IsoErrors(NamedTuple):
     """The errors of one axis; the motion has both kinds added.
 
-    Attributes
-    ----------
-    position : dict of str to float
-        Position errors by name (``B0X`` …), mm or rad.
-    component : dict of str to list of float
-        Component errors by name (``EXX`` …) at each target, mm or rad.
+    ``position`` has position errors by name (``B0X`` …), ``component`` component errors by name (``EXX`` …) at each
+    target; mm or rad.
     """
 
     position: dict[str, float]
@@ -57,7 +53,7 @@ def linear_axis_errors(plant: Plant, letter: str, targets: Sequence[float]) -> I
 def table_errors(
     plant: Plant, letter: str, center: Triple, targets: Sequence[float], at: Mapping[str, float]
 ) -> IsoErrors:
-    """Return the errors of A, B or C, which carries the workpiece, while the other axes stand ``at`` these places.
+    """Return the errors of A, B or C, which carries the workpiece, while the other axes stand ``at`` these positions.
 
     Offset and tilt of the axis are the means of what is measured, as the model takes them (manual 003, 3.4); along and
     about the axis itself there are none.
@@ -84,7 +80,7 @@ def _component(letter: str, errors: Array) -> dict[str, list[float]]:
 
 
 def _readings(plant: Plant, at: Mapping[str, float]) -> Array:
-    """Return where the instrument sees the reflectors, all axes standing ``at`` these places (others at 0)."""
+    """Return where the instrument sees the reflectors, all axes standing ``at`` these positions (others at 0)."""
     plant.rest_at([at.get(name, 0.0) for name in plant.names])
     return np.array([plant.place(reflector) for reflector in REFLECTORS])
 

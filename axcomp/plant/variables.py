@@ -1,6 +1,6 @@
 """The variables of the plant's FMU: all Real, and nowhere declared but here.
 
-The value reference of variable k of axis i is ``BLOCK · i + k``, k being its place in ``OF_AXIS``; behind the axes
+The value reference of variable k of axis i is ``BLOCK · i + k``, k being its index in ``OF_AXIS``; behind the axes
 follow those of the whole machine in the order of ``OF_MACHINE``.
 """
 
@@ -49,4 +49,4 @@ OF_MACHINE = (
 )
 
 TOOL_LENGTH, TCP, NOMINAL_TCP = 0, 1, 4
-"""Places in ``OF_MACHINE``, the last two of the first of three."""
+"""Indices in ``OF_MACHINE``, the last two of the first of three."""

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..model.curve import Curve
 from ..model.quantity import Quantity
-from .content import Content, NotComparableError, Records, Subject, span, spread
+from .content import Content, Records, span
 from .style import COLOURS, labelled, line_styles, new_figure, printed
 
 if TYPE_CHECKING:
@@ -20,41 +20,35 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 
 WIDE_RATIO = 50.0
-"""From this ratio of the largest to the smallest place on, places are drawn on a logarithmic scale where it helps."""
+"""From this ratio of the largest to the smallest point on, points are drawn on a logarithmic scale where it helps."""
 MARKED_MAX = 150
 """More points than this are not marked: they would hide the line."""
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class Curves(Content):
     """Some curves in one picture.
 
     Attributes
     ----------
-    subject : Subject
-        What they are of.
     lines : tuple of Curve
         At least one, all over and of the same quantities, in the unit they are shown in; closed where they repeat.
     reversal : bool
         There are two lines whose difference is of interest: it is drawn below them.
     logarithmic : bool
-        The places may be drawn on a logarithmic scale.
+        The points may be drawn on a logarithmic scale.
     zero_if_absent : bool
         A line that another machine lacks is 0 there.
-    note : str
-        Added to the title.
     """
 
-    subject: Subject
     lines: tuple[Curve, ...]
     reversal: bool = False
     logarithmic: bool = False
     zero_if_absent: bool = False
-    note: str = ""
 
     @property
     def x(self) -> Quantity:
-        """Of the places."""
+        """Of the points."""
         return self.lines[0].over
 
     @property
@@ -62,13 +56,8 @@ class Curves:
         """Of the values."""
         return self.lines[0].of
 
-    @property
-    def title(self) -> str:
-        """Heading of the picture."""
-        return f"{self.subject.title} ({self.note})" if self.note else self.subject.title
-
-    def places(self) -> Array:
-        """Return the places of all lines, ascending."""
+    def points(self) -> Array:
+        """Return the points of all lines, ascending."""
         return np.unique(np.concatenate([line.x for line in self.lines]))
 
     def figure(self) -> Figure:
@@ -84,123 +73,93 @@ class Curves:
         return figure
 
     def records(self) -> Records:
-        """Return place and values, a row for each place."""
-        x = self.places()
+        """Return point and values, a row for each point."""
+        x = self.points()
         columns = [np.array(line.at(x)) for line in self.lines]
         names = [f"{line.label} [{self.y.unit}]" for line in self.lines]
         if self.reversal and len(columns) == 2:
             columns.append(columns[0] - columns[1])
             names.append(f"difference [{self.y.unit}]")
-        rows = [tuple(float(value) for value in row) for row in zip(x, *columns, strict=True)]
-        return Records((str(self.x), *names), [*rows])
-
-    def extract(self, rows: int) -> Records:
-        """Return evenly spread rows."""
-        all_rows = self.records()
-        return Records(all_rows.columns, [all_rows.rows[row] for row in spread(len(all_rows.rows), rows)])
+        return Records((str(self.x), *names), np.column_stack([x, *columns]).tolist())
 
     def summary(self) -> tuple[str, str, str]:
-        """Return the number of points, the range of the places and of the values."""
-        x = self.places()
+        """Return the number of points, the range of the points and of the values."""
+        x = self.points()
         values = np.concatenate([line.y for line in self.lines])
         sides = f" × {len(self.lines)}" if len(self.lines) > 1 else ""
         return f"{len(x)}{sides}", span(x.tolist(), self.x.unit), span(np.round(values, 4).tolist(), self.y.unit)
 
     def against(self, other: Content) -> CurvesDifference:
-        """Return the difference to curves of the same kind."""
+        """Return the difference to curves of the same kind, line by line, at all points of both."""
         if not isinstance(other, Curves) or (self.x, self.y) != (other.x, other.y):
-            raise NotComparableError(f"{self.subject.title}: the two tables are over different quantities")
-        both = CurvesDifference(self, other)
-        if not both.difference().lines:
-            raise NotComparableError(f"{self.subject.title}: the two tables have no curve in common")
-        return both
-
-
-@dataclass(frozen=True, eq=False)
-class CurvesDifference:
-    """Two sets of curves and what the second one has more, curve by curve."""
-
-    one: Curves
-    other: Curves
-
-    @property
-    def subject(self) -> Subject:
-        """What they are of."""
-        return self.one.subject
-
-    def difference(self) -> Curves:
-        """Return other − one, line by line, at all points of both."""
-        names = dict.fromkeys(line.label for line in (*self._longer().lines, *self.one.lines, *self.other.lines))
-        pairs = [(self._line(self.one, name), self._line(self.other, name)) for name in names]
+            self.not_comparable("the two tables are over different quantities")
+        longer = other if len(other.lines) > len(self.lines) else self
+        names = dict.fromkeys(line.label for line in (*longer.lines, *self.lines, *other.lines))
+        known = {line.label for line in longer.lines}
         lines = [
             replace(theirs.minus(mine), label=name)
-            for name, (mine, theirs) in zip(names, pairs, strict=True)
-            if mine is not None and theirs is not None
+            for name in names
+            if (mine := self._partner(name, known)) is not None and (theirs := other._partner(name, known)) is not None
         ]
-        return replace(self.one, lines=tuple(lines), reversal=False, note="other − this one")
+        if not lines:
+            self.not_comparable("the two tables have no curve in common")
+        return CurvesDifference(
+            self.subject, tuple(lines), logarithmic=self.logarithmic, note="other − this one", pair=(self, other)
+        )
 
-    def _longer(self) -> Curves:
-        return self.other if len(self.other.lines) > len(self.one.lines) else self.one
-
-    def _line(self, content: Curves, label: str) -> Curve | None:
-        """Return a line by name: the only one serves for each, and what is absent may be 0; None: it has no partner."""
-        for line in content.lines:
+    def _partner(self, label: str, known: set[str]) -> Curve | None:
+        """Return a line by name: the only one serves for all ``known``, what is absent may be 0; else None."""
+        for line in self.lines:
             if line.label == label:
                 return line
-        if content.zero_if_absent:
-            ends = tuple(dict.fromkeys(content.places()[[0, -1]].tolist()))
-            return Curve(ends, (0.0,) * len(ends), content.x, content.y)
-        if len(content.lines) == 1 and label in {line.label for line in self._longer().lines}:
-            return content.lines[0]
-        return None
+        if self.zero_if_absent:
+            ends = tuple(dict.fromkeys(self.points()[[0, -1]].tolist()))
+            return Curve(ends, (0.0,) * len(ends), self.x, self.y)
+        return self.lines[0] if len(self.lines) == 1 and label in known else None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CurvesDifference(Curves):
+    """What the second of a pair of curves has more."""
+
+    pair: tuple[Curves, Curves]
 
     def figure(self) -> Figure:
         """Return both sets in one picture, and their difference below."""
         figure = new_figure(1.3)
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-        plot_curves(upper, self.one, suffix=", this one")
-        plot_curves(upper, self.other, suffix=", other", style="--", hollow=True)
+        one, other = self.pair
+        plot_curves(upper, one, suffix=", this one")
+        plot_curves(upper, other, suffix=", other", style="--", hollow=True)
         upper.set_title(f"{self.subject.title}: two machines", fontsize=12)
         upper.set_xlabel("")
-        plot_curves(lower, self.difference())
+        plot_curves(lower, self)
         lower.set_title("other − this one", fontsize=11)
-        lower.set_ylabel(f"difference [{self.one.y.unit}]", fontsize=11)
+        lower.set_ylabel(f"difference [{one.y.unit}]", fontsize=11)
         return figure
 
-    def records(self) -> Records:
-        """Return place and differences."""
-        return self.difference().records()
-
-    def extract(self, rows: int) -> Records:
-        """Return evenly spread rows."""
-        return self.difference().extract(rows)
-
-    def summary(self) -> tuple[str, str, str]:
-        """Return size, range, and range of the difference."""
-        return self.difference().summary()
-
-    def against(self, other: Content) -> Content:
+    def against(self, other: Content) -> CurvesDifference:
         """Refuse: a difference is compared no further."""
-        raise NotComparableError(f"{other.subject.title}: a difference has no difference")
+        other.not_comparable("a difference has no difference")
 
 
 def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-", hollow: bool = False) -> Axes:
     """Draw curves with their points into ``ax``; return it."""
     # Of two the second is thinner: where they lie upon each other both are seen.
-    for place, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
+    for index, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
         ax.plot(
             line.x,
             line.y,
             style,
             color=colour,
-            lw=2.2 if place == 0 and len(curves.lines) == 2 else 1.4,
+            lw=2.2 if index == 0 and len(curves.lines) == 2 else 1.4,
             marker=marker if len(line.x) <= MARKED_MAX else None,
             ms=4.5 if len(line.x) <= MARKED_MAX // 3 else 3.0,
             markerfacecolor="white" if hollow else colour,
             label=printed(line.label + suffix),
         )
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
-    if curves.logarithmic and _is_wide(curves.places()):
+    if curves.logarithmic and _is_wide(curves.points()):
         ax.set_xscale("log")
         ax.xaxis.set_major_formatter("{x:g}")
     if len(curves.lines) > 1 or suffix:
@@ -211,7 +170,7 @@ def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-",
 def plot_reversal(ax: Axes, curves: Curves) -> Axes:
     """Draw the first of two curves minus the second into ``ax``; return it."""
     first, second = curves.lines
-    x = curves.places()
+    x = curves.points()
     difference = np.array(first.at(x)) - second.at(x)
     ax.fill_between(x, 0.0, difference, color=COLOURS[2], alpha=0.2, lw=0)
     ax.plot(x, difference, "-", color=COLOURS[2], lw=1.4)

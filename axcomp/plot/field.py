@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from .content import Content, NotComparableError, Records, Subject, span, spread
+from ..model.quantity import shown
+from .content import Content, Records, span
 from .curves import Array
 from .style import new_figure, printed, sequential
 
-if TYPE_CHECKING:
-    from mpl_toolkits.mplot3d.axes3d import Axes3D  # type: ignore[import-untyped]
-
 LONGEST = 0.9
-"""Length of the longest arrow, in mean distances of neighbouring places."""
+"""Length of the longest arrow, in mean distances of neighbouring positions."""
 ROUNDING = 1e-6
 """µm that the arithmetic of the model may leave."""
 FLATTEST = 0.35
@@ -26,25 +24,19 @@ FLATTEST = 0.35
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
-    """Vectors at places in space.
+class Field(Content):
+    """Vectors at positions in space.
 
     Attributes
     ----------
-    subject : Subject
-        What they are of.
-    places : ndarray, shape (n, 3)
+    positions : ndarray, shape (n, 3)
         X, Y and Z in mm.
     vectors : ndarray, shape (n, 3)
         In µm.
-    note : str
-        Added to the title.
     """
 
-    subject: Subject
-    places: Array
+    positions: Array
     vectors: Array
-    note: str = ""
 
     def sizes(self) -> Array:
         """Return the lengths of the vectors, shape (n,), µm."""
@@ -59,63 +51,50 @@ class Field:
     def figure(self) -> Figure:
         """Return the arrows, much enlarged, coloured by their size."""
         figure = new_figure(1.3)
-        plot_field(figure.add_subplot(projection="3d"), self)
+        ax: Any = figure.add_subplot(projection="3d")
+        largest = self.largest()
+        scale = float(f"{LONGEST * _distance(self.positions) / largest:.2g}") if largest else 0.0
+        mappable = ScalarMappable(Normalize(0.0, largest or 1.0), sequential())
+        # The collection holds all shafts, then all left and all right strokes of the heads.
+        colours = np.tile(mappable.to_rgba(self.sizes()), (3, 1))
+        arrows = scale * self.vectors
+        if largest:
+            ax.quiver(*self.positions.T, *arrows.T, colors=colours, lw=2.4, arrow_length_ratio=0.35).set_clip_on(False)
+        ax.scatter(*self.positions.T, s=7, color="0.45", depthshade=False)
+        ends = np.concatenate([self.positions, self.positions + arrows])
+        for limits, side in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), ends.T, strict=True):
+            limits(side.min() - 1.0, side.max() + 1.0)
+        sides = np.ptp(ends, axis=0)
+        ax.set_box_aspect(np.maximum(sides, FLATTEST * max(float(sides.max()), 1.0)), zoom=1.1)
+        for name, label in zip("XYZ", (ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), strict=True):
+            label(f"{name} [mm]", fontsize=11, labelpad=8)
+        ax.view_init(elev=22.0, azim=-60.0)
+        enlarged = scale * shown("mm").factor
+        size = f"up to {largest:.1f} µm, drawn {enlarged:,.0f} times as large" if largest else "none at these places"
+        ax.set_title(printed(f"{self.title}: {size}"), fontsize=12)
+        figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
         return figure
 
     def records(self) -> Records:
-        """Return place, vector and its size, a row for each place."""
+        """Return position, vector and its size, a row for each position."""
         columns = ("X [mm]", "Y [mm]", "Z [mm]", "eX [µm]", "eY [µm]", "eZ [µm]", "size [µm]")
-        table = np.column_stack([self.places, self.vectors, self.sizes()])
-        return Records(columns, [tuple(row) for row in table.tolist()])
-
-    def extract(self, rows: int) -> Records:
-        """Return evenly spread rows."""
-        everything = self.records()
-        return Records(everything.columns, [everything.rows[row] for row in spread(len(everything.rows), rows)])
+        table = np.column_stack([self.positions, self.vectors, self.sizes()])
+        return Records(columns, table.tolist())
 
     def summary(self) -> tuple[str, str, str]:
-        """Return the number of places, their ranges, and that of the sizes."""
-        ranges = "; ".join(span(side.tolist(), "mm") for side in self.places.T)
-        return (
-            f"{len(self.places)} place{'s'[: len(self.places) - 1]}",
-            ranges,
-            span(np.round(self.sizes(), 4).tolist(), "µm"),
-        )
+        """Return the number of positions, their ranges, and that of the sizes."""
+        count = f"{len(self.positions)} place{'s'[: len(self.positions) - 1]}"
+        ranges = "; ".join(span(side.tolist(), "mm") for side in self.positions.T)
+        return count, ranges, span(np.round(self.sizes(), 4).tolist(), "µm")
 
     def against(self, other: Content) -> Field:
-        """Return other − this one; both must be at the same places."""
-        if not isinstance(other, Field) or not np.array_equal(self.places, other.places):
-            raise NotComparableError(f"{self.subject.title}: the two machines have different work volumes")
-        return Field(self.subject, self.places, other.vectors - self.vectors, "other − this one")
+        """Return other − this one; both must be at the same positions."""
+        if not isinstance(other, Field) or not np.array_equal(self.positions, other.positions):
+            self.not_comparable("the two machines have different work volumes")
+        return Field(self.subject, self.positions, other.vectors - self.vectors, note="other − this one")
 
 
-def plot_field(ax: Axes3D, field: Field) -> Axes3D:
-    """Draw the arrows into a three-dimensional ``ax``; return it."""
-    largest = field.largest()
-    scale = float(f"{LONGEST * _distance(field.places) / largest:.2g}") if largest else 0.0
-    mappable = ScalarMappable(Normalize(0.0, largest or 1.0), sequential())
-    # The collection holds all shafts, then all left and all right strokes of the heads.
-    colours = np.tile(mappable.to_rgba(field.sizes()), (3, 1))
-    arrows = scale * field.vectors
-    if largest:
-        ax.quiver(*field.places.T, *arrows.T, colors=colours, lw=2.4, arrow_length_ratio=0.35).set_clip_on(False)
-    ax.scatter(*field.places.T, s=7, color="0.45", depthshade=False)
-    ends = np.concatenate([field.places, field.places + arrows])
-    for limits, side in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), ends.T, strict=True):
-        limits(side.min() - 1.0, side.max() + 1.0)
-    sides = np.ptp(ends, axis=0)
-    ax.set_box_aspect(np.maximum(sides, FLATTEST * max(float(sides.max()), 1.0)), zoom=1.1)
-    for name, label in zip("XYZ", (ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), strict=True):
-        label(f"{name} [mm]", fontsize=11, labelpad=8)
-    ax.view_init(elev=22.0, azim=-60.0)
-    note = f" ({field.note})" if field.note else ""
-    size = f"up to {largest:.1f} µm, drawn {scale * 1e3:,.0f} times as large" if largest else "none at these places"
-    ax.set_title(printed(f"{field.subject.title}{note}: {size}"), fontsize=12)
-    ax.figure.colorbar(mappable, ax=ax, shrink=0.75, pad=0.09).set_label("size of the error [µm]", fontsize=11)
-    return ax
-
-
-def _distance(places: Array) -> float:
-    """Return the mean distance of neighbouring places along the axes, 1 mm where there is but one place."""
-    gaps = [float(np.diff(np.unique(side)).mean()) for side in places.T if np.ptp(side) > 0.0]
+def _distance(positions: Array) -> float:
+    """Return the mean distance of neighbouring positions along the axes, 1 mm where there is but one."""
+    gaps = [float(np.diff(np.unique(side)).mean()) for side in positions.T if np.ptp(side) > 0.0]
     return sum(gaps) / len(gaps) if gaps else 1.0

@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..model.grid import Grid, Scatter
 from ..model.quantity import Quantity
-from .content import Content, NotComparableError, Records, Subject, span, spread
+from .content import Content, Records, picked, span, spread
 from .curves import Array
 from .style import DIVERGING, labelled, new_figure, printed
 
@@ -30,18 +30,10 @@ FLAT, FLAT_SHARE = 0.02, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """One map: whatever has a value at every place, such as a ``Grid`` or a ``Scatter``.
+    """One map: whatever has a value ``at`` every point, such as a ``Grid`` or a ``Scatter``.
 
-    Attributes
-    ----------
-    label : str
-        Tells several in one picture apart.
-    over : two Quantity
-        Across and upwards.
-    of : Quantity
-        Of the values.
-    at : function of (x, y)
-        The value at a place.
+    ``label`` tells several in one picture apart; ``over`` are the quantities across and upwards, ``of`` that of the
+    values.
     """
 
     label: str
@@ -61,29 +53,23 @@ class Layer:
 
 
 @dataclass(frozen=True, eq=False)
-class Map:
+class Map(Content):
     """One or several maps over the same two quantities.
 
     Attributes
     ----------
-    subject : Subject
-        What they are of.
     layers : tuple of Layer
         At least one, all over and of the same quantities, in the unit they are shown in.
     across, up : ndarray, shape (nx,) and (ny,)
         The grid that is drawn and listed, ascending.
     points : ndarray, shape (n, 2)
         Where the values are given if not on the grid: marked.
-    note : str
-        Added to the title.
     """
 
-    subject: Subject
     layers: tuple[Layer, ...]
     across: Array
     up: Array
     points: Array
-    note: str = ""
 
     @property
     def x(self) -> Quantity:
@@ -99,11 +85,6 @@ class Map:
     def z(self) -> Quantity:
         """Of the values."""
         return self.layers[0].of
-
-    @property
-    def title(self) -> str:
-        """Heading of the picture."""
-        return f"{self.subject.title} ({self.note})" if self.note else self.subject.title
 
     def at(self, across: Array, up: Array) -> Array:
         """Return the values on any grid, shape (layers, ny, nx)."""
@@ -130,29 +111,24 @@ class Map:
         return figure
 
     def records(self) -> Records:
-        """Return a row for each marked point, else for each place of the grid: place and value of each layer."""
+        """Return a row for each marked point, else for each point of the grid: point and value of each layer."""
         names = [f"{layer.label or self.z.name} [{self.z.unit}]" for layer in self.layers]
         if len(self.points):
-            places = self.points
-            values = np.array([[layer.at(x, y) for layer in self.layers] for x, y in places.tolist()])
+            points = self.points
+            values = np.array([[layer.at(x, y) for layer in self.layers] for x, y in points.tolist()])
         else:
-            places = np.stack(np.meshgrid(self.across, self.up), axis=-1).reshape(-1, 2)
+            points = np.stack(np.meshgrid(self.across, self.up), axis=-1).reshape(-1, 2)
             values = self.values().reshape(len(self.layers), -1).T
-        rows = np.column_stack([places, values]).tolist()
-        return Records((str(self.x), str(self.y), *names), [tuple(row) for row in rows])
+        return Records((str(self.x), str(self.y), *names), np.column_stack([points, values]).tolist())
 
     def extract(self, rows: int) -> Records:
         """Return the marked points; else the map as a sheet, rows for one quantity and columns for the other."""
         if len(self.points):
-            everything = self.records()
-            return Records(everything.columns, [everything.rows[row] for row in spread(len(everything.rows), rows)])
+            return super().extract(rows)
         columns = spread(len(self.across), COLUMNS_SHOWN)
-        values = self.values()[0]
-        sheet = [
-            (float(self.up[j]), *(float(values[j, i]) for i in columns)) for j in reversed(spread(len(self.up), rows))
-        ]
+        sheet = np.column_stack([self.up, self.values()[0][:, columns]]).tolist()
         head = (f"{self.y} \\ {self.x}", *(printed(f"{self.across[i]:.5g}") for i in columns))
-        return Records(head, [*sheet])
+        return Records(head, picked(sheet, rows)[::-1])
 
     def summary(self) -> tuple[str, str, str]:
         """Return the size of the grid, the ranges of both quantities and of the values."""
@@ -163,9 +139,9 @@ class Map:
     def against(self, other: Content) -> Map:
         """Return other − this one, on the grid of both."""
         if not isinstance(other, Map) or (self.x, self.y, self.z) != (other.x, other.y, other.z):
-            raise NotComparableError(f"{self.subject.title}: the two tables are over different quantities")
+            self.not_comparable("the two tables are over different quantities")
         if len({len(self.layers), len(other.layers)} - {1}) > 1:
-            raise NotComparableError(f"{self.subject.title}: {len(self.layers)} maps against {len(other.layers)}")
+            self.not_comparable(f"{len(self.layers)} maps against {len(other.layers)}")
         mine, theirs = (
             content.layers * (max(len(self.layers), len(other.layers)) // len(content.layers))
             for content in (self, other)
@@ -181,23 +157,9 @@ class Map:
 
 
 def plot_map(ax: Axes, content: Map, values: Array, limit: float) -> QuadMesh:
-    """Draw one map into ``ax``, its colours from −limit to limit, with contours.
+    """Draw one map into ``ax``, its colours from −limit to limit (> 0), with contours; return it for their scale.
 
-    Parameters
-    ----------
-    ax : Axes
-        Gets labels, but no title and no scale of colours.
-    content : Map
-        What is drawn.
-    values : ndarray, shape (ny, nx)
-        One of its layers.
-    limit : float
-        Of the colours, > 0.
-
-    Returns
-    -------
-    QuadMesh
-        For a scale of colours.
+    ``values``, shape (ny, nx), are those of one layer. ``ax`` gets labels, but no title.
     """
     across, up = (_widened(side) for side in (content.across, content.up))
     wide = np.pad(values, ((0, len(up) - len(content.up)), (0, len(across) - len(content.across))), mode="edge")
@@ -221,5 +183,5 @@ def _levels(values: Array) -> list[float]:
 
 
 def _widened(side: Array) -> Array:
-    """Return a side with a second place if it has but one: an area needs two."""
+    """Return a side with a second point if it has but one: an area needs two."""
     return side if len(side) > 1 else np.array([side[0], side[0] + 1.0])

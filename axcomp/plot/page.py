@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 
 from matplotlib.figure import Figure
@@ -33,13 +33,8 @@ summary { cursor: pointer; } .wide { overflow-x: auto; } .note { color: #6b4a00;
 def page(title: str, contents: Sequence[Content], notes: Sequence[str] = ()) -> str:
     """Return a page with an overview and a section for each content."""
     sections = "\n".join(section(content) for content in contents)
-    links = "".join(f'<li><a href="#{_id(one)}">{escape(one.subject.title)}</a></li>' for one in contents)
-    remarks = "".join(f'<p class="note">{escape(note)}</p>' for note in notes)
-    body = f"""{remarks}
-<nav><ul>{links}</ul></nav>
-<div class="wide">{table(overview(contents))}</div>
-{sections}"""
-    return document(title, body)
+    links = [(one.subject.name, one.subject.title) for one in contents]
+    return document(title, f"{remarks(notes)}\n{navigation(links)}\n{table(overview(contents))}\n{sections}")
 
 
 def document(title: str, body: str) -> str:
@@ -56,40 +51,47 @@ def document(title: str, body: str) -> str:
 """
 
 
+def navigation(links: Iterable[tuple[str, str]]) -> str:
+    """Return links to the parts of a page, from their anchors and titles."""
+    items = "".join(f'<li><a href="#{escape(anchor)}">{escape(title)}</a></li>' for anchor, title in links)
+    return f"<nav><ul>{items}</ul></nav>"
+
+
+def remarks(notes: Iterable[str]) -> str:
+    """Return sentences as paragraphs of their own."""
+    return "".join(f'<p class="note">{escape(note)}</p>' for note in notes)
+
+
 def section(content: Content, heading: str = "h2") -> str:
     """Return one content: heading, picture, and its numbers to unfold."""
     title = content.subject.title
     shown = content.extract(ROWS_SHOWN)
-    return f"""<section id="{_id(content)}"><{heading}>{escape(title)}</{heading}>
+    return f"""<section id="{escape(content.subject.name)}"><{heading}>{escape(title)}</{heading}>
 {picture(title, content.figure())}
-<details><summary>Numbers</summary><div class="wide">{table(shown)}</div></details></section>"""
+<details><summary>Numbers</summary>{table(shown)}</details></section>"""
 
 
 def picture(title: str, figure: Figure) -> str:
     """Return a figure as an embedded picture."""
     data = b64encode(png(figure)).decode()
-    return f'<img alt="{escape(title, quote=True)}" src="data:image/png;base64,{data}">'
+    return f'<img alt="{escape(title)}" src="data:image/png;base64,{data}">'
 
 
 def overview(contents: Sequence[Content]) -> Records:
     """Return a row for each content: what it is, how many points, which range, which values."""
     rows = [(content.subject.title, *content.summary()) for content in contents]
-    return Records(("compensation", "points", "range", "values"), [*rows])
+    return Records(("compensation", "points", "range", "values"), rows)
 
 
-def table(records: Records) -> str:
-    """Return numbers as an HTML table."""
+def table(records: Records, kind: str = "") -> str:
+    """Return numbers as an HTML table that scrolls where it is too wide; ``kind``: its class, ``text`` or none."""
     head = "".join(f"<th>{escape(column)}</th>" for column in records.columns)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{escape(shown(cell))}</td>" for cell in row) + "</tr>" for row in records.rows
-    )
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    rows = ("".join(f"<td>{escape(shown(cell))}</td>" for cell in row) for row in records.rows)
+    body = "".join(f"<tr>{row}</tr>" for row in rows)
+    classed = f' class="{kind}"' if kind else ""
+    return f'<div class="wide"><table{classed}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def shown(cell: Cell) -> str:
     """Return a cell as readers want it: five significant digits, true minus signs."""
     return printed(cell if isinstance(cell, str) else f"{cell + 0.0:.5g}")
-
-
-def _id(content: Content) -> str:
-    return escape(content.subject.name, quote=True)

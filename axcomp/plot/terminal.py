@@ -22,8 +22,8 @@ def console() -> Console:
 def table(title: str, header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
     """Return a table whose first column is aligned to the left and all others to the right."""
     made = Table(title=title or None, box=SIMPLE_HEAD, title_justify="left", title_style="bold", pad_edge=False)
-    for place, name in enumerate(header):
-        made.add_column(name, justify="right" if place else "left", no_wrap=True)
+    for column, name in enumerate(header):
+        made.add_column(name, justify="right" if column else "left", no_wrap=True)
     for row in rows:
         made.add_row(*row)
     return made

@@ -6,6 +6,8 @@ import logging
 import os
 import uuid
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from itertools import islice
 from typing import Any, TypeVar, cast
 
 import dask
@@ -30,45 +32,27 @@ class ClusterError(OSError):
 
 
 def completed(
-    task: Callable[[Any, T], Any],
-    common: Any,
-    items: list[T],
-    scheduler: str | None = None,
-    workers: int | None = None,
+    task: Callable[[Any, T], Any], common: Any, items: list[T], scheduler: str | None = None, workers: int | None = None
 ) -> Iterator[tuple[T, Any, BaseException | None]]:
     """Yield (item, result, exception) of ``task(common, item)`` in the order in which they end.
 
-    Parameters
-    ----------
-    task : callable
-        Importable by the workers.
-    common : object
-        Sent to each worker once.
-    items : list
-        One task each.
-    scheduler : str or None
-        Address of a Dask scheduler; None: workers of our own on this machine.
-    workers : int or None
-        How many of our own; None: one for each processor.
+    The workers can import the task; ``common`` is sent to each of them once. ``scheduler``: address of a Dask
+    scheduler; None: ``workers`` of our own on this machine, one for each processor if that is None too.
 
     Raises
     ------
     ClusterError
         If the scheduler does not answer, or has no workers.
     """
-    with dask.config.set(_SETTINGS):
+    quiet = {"dashboard_address": ":0", "silence_logs": logging.CRITICAL}
+    with dask.config.set(_SETTINGS), ExitStack() as opened:
         if scheduler is None:
             count = min(workers or os.cpu_count() or 1, len(items))
-            with (
-                LocalCluster(
-                    n_workers=count, threads_per_worker=1, dashboard_address=":0", silence_logs=logging.CRITICAL
-                ) as cluster,
-                Client(cluster) as client,
-            ):
-                yield from _completed(client, task, common, items)
+            cluster = opened.enter_context(LocalCluster(n_workers=count, threads_per_worker=1, **quiet))
+            client = opened.enter_context(Client(cluster))
         else:
-            with _connected(scheduler) as client:
-                yield from _completed(client, task, common, items)
+            client = opened.enter_context(_connected(scheduler))
+        yield from _completed(client, task, common, items)
 
 
 class _Common(WorkerPlugin):
@@ -104,16 +88,13 @@ def _completed(
     under_way: dict[Future[Any], T] = {}
     ended = as_completed()
 
-    def submit_next() -> bool:
-        for item in waiting:
+    def submit(count: int) -> None:
+        for item in islice(waiting, count):
             future = client.submit(_with_common, task, name, item, pure=False)
             under_way[future] = item
             ended.add(future)
-            return True
-        return False
 
-    while len(under_way) < max(1, sum(client.nthreads().values())) and submit_next():
-        pass
+    submit(max(1, sum(client.nthreads().values())))
     for future in ended:
         item = under_way.pop(future)
         result, error = None, None
@@ -121,7 +102,7 @@ def _completed(
             result = future.result()
         except Exception as raised:
             error = raised
-        submit_next()
+        submit(1)
         yield item, result, error
         future.release()
     client.unregister_worker_plugin(name)

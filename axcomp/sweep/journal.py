@@ -12,7 +12,6 @@ import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -56,13 +55,7 @@ def _update(digest: Any, value: Any) -> None:
 
 
 class Journal:
-    """The rows so far.
-
-    Parameters
-    ----------
-    path : Path
-        Made when the first row comes.
-    """
+    """The rows so far, in a file that is made when the first one comes."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -109,5 +102,5 @@ class Journal:
     def __enter__(self) -> Journal:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()

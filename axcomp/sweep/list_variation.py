@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import PurePosixPath
-from typing import Any
 
 from ..kinds import KINDS
 from ..kinds.parameter import key_of
@@ -26,14 +25,8 @@ _INDEX = re.compile(r"\[\s*(\d*)\s*\]")
 class ListEntry:
     """``achskw1.lis: kw.ssfk.table[].pos``: an entry of a list, or one in each row of a table.
 
-    Attributes
-    ----------
-    file : str
-        Name of the list, with as many folders in front as tell it from others.
-    entry : str
-        Name of the entry; empty indices: all that are there.
-    scale : bool
-        Multiply the numbers that are there; else set them.
+    ``file``: name of the list, with as many folders in front as tell it from others; ``entry``: empty indices: all that
+    are there; ``scale``: multiply the numbers that are there; else set them.
     """
 
     file: str
@@ -93,7 +86,7 @@ class Table:
         for place, axis in enumerate(machine.axes):
             compensation = getattr(axis, kind) if kind in KINDS and axis.name == name else None
             if compensation is not None:
-                scaled = replace(axis, **{kind: _scaled(compensation, factor)})
+                scaled = axis.having(KINDS[kind].scaled(compensation, factor))
                 return replace(machine, axes=(*machine.axes[:place], scaled, *machine.axes[place + 1 :]))
         raise ValueError(f"there is no compensation {self.name}; there are {', '.join(_tables(machine)) or 'none'}")
 
@@ -105,40 +98,13 @@ class Table:
             for table in one.errors:
                 meant = one.index == index and error in {None, table.name}
                 hit = hit or meant
-                tables.append(replace(table, values=_times(table.values, factor)) if meant else table)
+                tables.append(replace(table, values=tuple(factor * v for v in table.values)) if meant else table)
             volumetric.append(replace(one, errors=tuple(tables)))
         if not hit:
             raise ValueError(
                 f"the machine has no errors {self.name}; there are {', '.join(_tables(machine)) or 'none'}"
             )
         return replace(machine, volumetric=tuple(volumetric))
-
-
-_VALUES = {
-    "Leadscrew": ("positive", "negative"),
-    "Cross": ("corrections",),
-    "Plane": ("corrections",),
-    "Friction": ("currents",),
-    "CrosstalkCurve": ("corrections",),
-}
-"""Fields with the values of each compensation; those of the crosstalk tests stand in records of their own."""
-
-
-def _scaled(compensation: Any, factor: float) -> Any:
-    fields = _VALUES.get(type(compensation).__name__)
-    if fields is not None:
-        return replace(compensation, **{name: _times(getattr(compensation, name), factor) for name in fields})
-    tests = []
-    for test in compensation.tests:
-        sides = [f"{what}_{sign}" for what in ("accelerate", "decelerate") for sign in ("positive", "negative")]
-        tests.append(replace(test, **{name: getattr(test, name) * factor for name in sides}))
-    return replace(compensation, tests=tuple(tests))
-
-
-def _times(values: Any, factor: float) -> Any:
-    if values is None:
-        return None
-    return tuple(_times(value, factor) for value in values) if isinstance(values, tuple) else values * factor
 
 
 def _tables(machine: Machine) -> list[str]:
@@ -154,15 +120,7 @@ def _plain(value: Value) -> Value:
 
 
 def read_files(start: str, files: Mapping[str, bytes]) -> Reading:
-    """Return the machine that lists describe.
-
-    Parameters
-    ----------
-    start : str
-        What ``read_machine`` is to read, relative to where the files lie.
-    files : mapping of str to bytes
-        By relative path, with ``/``.
-    """
+    """Return the machine of lists by relative path, with ``/``; ``start``: what ``read_machine`` is to read."""
     return read_machine(start, documents=[Document(name, data) for name, data in files.items()])
 
 

@@ -46,14 +46,8 @@ _GRAMMAR = re.compile(rf"\s*([a-z]+)(?:\s+([0-9.][0-9.eE+-]*))?\s+({_NAME})(?:\s
 class Reduction:
     """One number of a run.
 
-    Attributes
-    ----------
-    how : str
-        One of ``REDUCTIONS``, or ``at``.
-    minuend, subtrahend : str
-        Names of variables; no subtrahend: "".
-    time : float
-        For ``at``: s from the start of the run; the cycle it falls into counts.
+    ``how``: one of ``REDUCTIONS``, or ``at``; ``minuend`` and ``subtrahend``: names of variables, no subtrahend: "";
+    ``time``: for ``at``, s from the start of the run; the cycle it falls into counts.
     """
 
     how: str

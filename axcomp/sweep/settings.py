@@ -31,18 +31,9 @@ EXPECTED = (
 
 @dataclass(frozen=True)
 class Setting:
-    """What a key stands for.
+    """What a key stands for: as it is written, which is the name of the column in the results too, and what is varied.
 
-    Attributes
-    ----------
-    key : str
-        As it is written: the name of the column in the results too.
-    kind : str
-        What is varied.
-    name : str
-        Of the input or the parameter.
-    target : ListEntry, Table or None
-        What is varied in the lists.
+    ``name``: of the input or the parameter; ``target``: what is varied in the lists.
     """
 
     key: str

@@ -1,46 +1,24 @@
-"""The specification of a sweep, a TOML or JSON file, read and checked.
-
-::
-
-    machine = "lists/hochlauf.lis"          # or several; or an FMU. Relative to this file
-    cycle_time = 0.001                      # s; default 1 ms
-    duration = 10.0                         # s; default: as long as the input is
-
-    [input]
-    file = "input.csv"                      # or a motion:
-    start = { X = 0, Y = 0 }
-    moves = [{ X = 100, Y = 50 }, { dwell = 0.1 }, { X = 0, velocity = 50 }]
-    sine = { Z = { amplitude = 10, frequency = 0.5 } }
-
-    [vary]                                  # every combination of
-    "achskw1.lis: kw.crosscomp2.n_cycles" = [0, 10, 20]
-    "scale X.leadscrew" = { from = 0, to = 1, count = 5 }
-
-    [[runs]]                                # and of these
-    "input Y.leadscrew.enable" = false
-
-    [results]
-    "X error" = "rms X.corrected_setpoint - X.setpoint"
-"""
+"""The specification of a sweep, a TOML or JSON file, read and checked; ``axcomp sweep --help`` shows one."""
 
 from __future__ import annotations
 
 import json
 import math
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ..engine.motion import Limits
-from ..engine.trajectory import LIMITS, InputError, InputFile, Motion, Sine, read_input
+from ..engine.trajectory import LIMITS, InputFile, Motion, Sine, read_input
 from ..model.machine import CYCLE_TIME
-from .errors import SpecError
 from .list_variation import Value
 from .reductions import Reduction
 from .settings import Setting
+
+T = TypeVar("T")
 
 MACHINE = "machine"
 RUN, FINDINGS, ERROR = "run", "findings", "error"
@@ -51,19 +29,17 @@ RUNS_MAX = 1_000_000
 _KEYS = ("machine", "cycle_time", "duration", "input", "vary", "runs", "results")
 
 
+class SpecError(ValueError):
+    """A specification that cannot be used: one sentence behind ``file: key:``."""
+
+    def __init__(self, file: object, key: str, sentence: str) -> None:
+        self.key = key
+        super().__init__(f"{file}: {key}: {sentence}" if key else f"{file}: {sentence}")
+
+
 @dataclass(frozen=True)
 class Run:
-    """One run of a sweep.
-
-    Attributes
-    ----------
-    index : int
-        Its row.
-    machine : int
-        Place of its machine in the specification.
-    values : mapping of Setting to value
-        What is set for it.
-    """
+    """One run of a sweep: its row, the index of its machine in the specification, and what is set for it."""
 
     index: int
     machine: int
@@ -72,26 +48,11 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class Spec:
-    """A sweep.
+    """A sweep as it was read from ``file``.
 
-    Attributes
-    ----------
-    file : Path
-        It was read from.
-    machines : tuple of Path
-        Lists as ``read_machine`` takes them, or FMUs.
-    trajectory : InputFile or Motion
-        Inputs of every run.
-    results : mapping of str to Reduction
-        By the name of their column.
-    vary : mapping of Setting to tuple of values
-        Every combination of them is run.
-    runs : tuple of mapping of Setting to value
-        With each of these; one that sets nothing if there are none.
-    cycle_time : float
-        s.
-    duration : float or None
-        s; None: as long as the trajectory is.
+    ``machines``: lists as ``read_machine`` takes them, or FMUs. ``trajectory``: inputs of every run; ``duration``: s,
+    None: as long as that is. ``results``: by the name of their column. Every combination of ``vary`` is run with each
+    of ``runs``; one that sets nothing if there are none. ``cycle_time``: s.
     """
 
     file: Path
@@ -126,20 +87,16 @@ def read_spec(path: Path) -> Spec:
 
 
 def _content(path: Path) -> dict[str, Any]:
+    language, loads = ("JSON", json.loads) if path.suffix.lower() == ".json" else ("TOML", tomllib.loads)
     try:
-        text = path.read_text(encoding="utf-8-sig")
-        content = json.loads(text) if path.suffix.lower() == ".json" else tomllib.loads(text)
+        content = loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise SpecError(path, "", f"the specification cannot be read: {error.strerror or error}") from None
     except (ValueError, RecursionError) as error:
-        raise SpecError(path, "", f"the specification is no {_language(path)}: {error}") from None
+        raise SpecError(path, "", f"the specification is no {language}: {error}") from None
     if not isinstance(content, dict):
         raise SpecError(path, "", f"expected an object with the keys {', '.join(_KEYS)}")
     return content
-
-
-def _language(path: Path) -> str:
-    return "JSON" if path.suffix.lower() == ".json" else "TOML"
 
 
 class _Reader:
@@ -190,10 +147,7 @@ class _Reader:
             self._only(given, ("file",), "input")
             if not isinstance(given["file"], str):
                 raise self._error("input.file", "expected the path of a CSV file")
-            try:
-                return read_input(self.file.parent / given["file"])
-            except InputError as error:
-                raise self._error("input.file", str(error)) from None
+            return self._made("input.file", read_input, self.file.parent / given["file"])
         self._only(given, ("start", "moves", "sine", *LIMITS), "input")
         start = self._numbers(given.get("start", {}), "input.start")
         limits = replace(Limits(), **{k: self._positive(given[k], f"input.{k}") for k in LIMITS if k in given})
@@ -209,8 +163,8 @@ class _Reader:
         if not isinstance(given, list):
             raise self._error("input.moves", "expected a list of { AXIS = target } and { dwell = seconds }")
         moves = []
-        for place, one in enumerate(given):
-            key = f"input.moves[{place}]"
+        for number, one in enumerate(given):
+            key = f"input.moves[{number}]"
             move = self._numbers(one, key)
             if "dwell" in move and (len(move) > 1 or move["dwell"] < 0.0):
                 raise self._error(key, "expected { dwell = seconds } with nothing else")
@@ -237,11 +191,11 @@ class _Reader:
         found = {}
         for name, given in self._table(self.content.get("vary", {}), "vary", "keys with values").items():
             key = f'vary."{name}"'
-            setting = self._setting(name, key)
+            setting = self._made(key, Setting.parse, name)
             values = self._range(given, key) if isinstance(given, dict) else given
             if not isinstance(values, list) or not values:
                 raise self._error(key, "expected a list of values, or { from, to, count }")
-            found[setting] = tuple(self._value(setting, value, key) for value in values)
+            found[setting] = tuple(self._made(key, setting.check, value) for value in values)
         return found
 
     def _range(self, given: dict[str, Any], key: str) -> list[float]:
@@ -259,12 +213,12 @@ class _Reader:
         if not isinstance(given, list) or not given:
             raise self._error("runs", "expected a list of tables, each with a value for every key")
         found = []
-        for place, one in enumerate(given):
+        for number, one in enumerate(given):
             settings = {}
-            for name, value in self._table(one, f"runs[{place}]", "keys with a value each").items():
-                key = f'runs[{place}]."{name}"'
-                setting = self._setting(name, key)
-                settings[setting] = self._value(setting, value, key)
+            for name, value in self._table(one, f"runs[{number}]", "keys with a value each").items():
+                key = f'runs[{number}]."{name}"'
+                setting = self._made(key, Setting.parse, name)
+                settings[setting] = self._made(key, setting.check, value)
             found.append(settings)
         return tuple(found)
 
@@ -275,23 +229,15 @@ class _Reader:
             key = f'results."{name}"'
             if not isinstance(text, str):
                 raise self._error(key, "expected a text such as “max X.correction”")
-            try:
-                found[name] = Reduction.parse(text)
-            except ValueError as error:
-                raise self._error(key, str(error)) from None
+            found[name] = self._made(key, Reduction.parse, text)
         if not found:
             raise self._error("results", "expected at least one NAME = “max X.correction”")
         return found
 
-    def _setting(self, name: str, key: str) -> Setting:
+    def _made(self, key: str, make: Callable[[Any], T], given: object) -> T:
+        """Return what is made of a value; where that is refused, SpecError with the sentence."""
         try:
-            return Setting.parse(name)
-        except ValueError as error:
-            raise self._error(key, str(error)) from None
-
-    def _value(self, setting: Setting, value: object, key: str) -> Value:
-        try:
-            return setting.check(value)
+            return make(given)
         except ValueError as error:
             raise self._error(key, str(error)) from None
 

@@ -6,18 +6,23 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from ..fmu.archive import BuildError
 from ..fmu.packed_lists import FOLDER, packed_lists
 from ..lists import read_machine
-from .errors import SpecError
 from .journal import SUFFIX, Journal, keys_of
 from .list_variation import ListEntry, varied
-from .spec import ERROR, FINDINGS, MACHINE, RUN, Run, Spec
+from .spec import ERROR, FINDINGS, MACHINE, RUN, Run, Spec, SpecError
 from .task import Job, Row, Source, notable, nothing_of, perform, reading_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LINES_NAMED = 12
+"""Lines that a legend has room for."""
 
 Progress = Callable[[int, int], None]
 """Called with how many rows there are, and how many there are to be."""
@@ -27,14 +32,8 @@ Progress = Callable[[int, int], None]
 class Sweep:
     """Results of a sweep.
 
-    Attributes
-    ----------
-    table : DataFrame
-        A row a run, in the order of the specification: ``run``, what was varied, the results, ``findings``, ``error``.
-    varied : tuple of str
-        Columns of what was varied.
-    taken_over : int
-        Rows that were there already.
+    ``table`` has a row a run, in the order of the specification: ``run``, what was varied (columns ``varied``), the
+    results, ``findings``, ``error``. ``taken_over``: rows that were there already.
     """
 
     table: pd.DataFrame
@@ -49,21 +48,38 @@ class Sweep:
     def save(self, path: Path) -> None:
         """Write the table, as ``.parquet`` or ``.csv``: there is either all of it or what was there before."""
         unfinished = path.with_name(f"{path.name}.unfinished")
-        WRITERS[path.suffix.lower()](self.table, unfinished)
+        if path.suffix.lower() == ".csv":
+            self.table.to_csv(unfinished, index=False, lineterminator="\n")
+        else:
+            self.table.to_parquet(unfinished, index=False, engine="pyarrow")
         unfinished.replace(path)
 
-    def plot(self, x: str, y: str, ax: Any = None) -> Any:
-        """Draw a result over what was varied, a line for each combination of the rest; return the Matplotlib axes."""
-        from .picture import plot_sweep
+    def plot(self, x: str, y: str, ax: Axes | None = None) -> Any:
+        """Draw a result over a column, a line for each combination of the others that were varied.
 
-        return plot_sweep(self.table, self.varied, x, y, ax)
+        These need not be numbers, ``x`` has to be. Return the Matplotlib axes; ValueError if a column is not there.
+        """
+        from ..plot.style import labelled, line_styles, new_figure  # loads Matplotlib
 
-
-WRITERS: dict[str, Callable[[pd.DataFrame, Path], object]] = {
-    ".parquet": lambda table, path: table.to_parquet(path, index=False, engine="pyarrow"),
-    ".csv": lambda table, path: table.to_csv(path, index=False, lineterminator="\n"),
-}
-"""By the suffix of the file."""
+        numeric = [str(name) for name in self.table if pd.api.types.is_numeric_dtype(self.table[name])]
+        for name in (x, y):
+            if name not in numeric:
+                raise ValueError(f"there is no column {name} of numbers; there are {', '.join(numeric)}")
+        ax = new_figure().add_subplot() if ax is None else ax
+        done = self.table[self.table[ERROR] == ""]
+        others = [name for name in self.varied if name != x and done[name].nunique(dropna=False) > 1]
+        groups = list(done.groupby(others, dropna=False, sort=False)) if others else [((), done)]
+        for (values, group), (colour, marker) in zip(groups, line_styles(len(groups)), strict=True):
+            ordered = group.sort_values(x)
+            texts = [f"{v:g}" if isinstance(v, float) else str(v) for v in values]
+            label = ", ".join(f"{name} = {text}" for name, text in zip(others, texts, strict=True))
+            ax.plot(ordered[x], ordered[y], color=colour, marker=marker, ms=4, lw=1.2, label=label or None)
+        title = f"{y} over {x}"
+        if len(groups) > LINES_NAMED:
+            title += f", {len(groups)} lines by {', '.join(others)}"
+        elif others:
+            ax.legend(fontsize=9)
+        return labelled(ax, title, x, y)
 
 
 def job_of(spec: Spec) -> tuple[Job, list[str]]:
@@ -120,20 +136,11 @@ def run_sweep(
     retry: bool = False,
     progress: Progress | None = None,
 ) -> Sweep:
-    """Run what is missing, and write the results.
+    """Run what is missing, and write the results to ``output``, ``.parquet`` or ``.csv``.
 
-    Parameters
-    ----------
-    spec, job : Spec, Job
-        A specification, and what ``job_of`` makes of it.
-    output : Path
-        ``.parquet`` or ``.csv``. Beside it lies a journal until the results are there.
-    scheduler, workers
-        As in ``cluster.completed``.
-    retry : bool
-        Try runs again that have failed before.
-    progress : callable
-        Told at the start and after every run.
+    Beside it lies a journal until the results are there. ``job`` is what ``job_of`` makes of the specification,
+    ``scheduler`` and ``workers`` are as in ``cluster.completed``. ``retry``: try runs again that have failed before.
+    ``progress`` is told at the start and after every run.
 
     Raises
     ------
@@ -172,8 +179,7 @@ def _performed(job: Job, runs: list[Run], scheduler: str | None, workers: int | 
     for run, found, error in completed(perform, job, runs, scheduler, workers):
         row: Row = found
         if error is not None:
-            ended = f"the worker ended during this run: {' '.join(str(error).split())}"
-            row = {**nothing_of(job), ERROR: ended}
+            row = {**nothing_of(job), ERROR: f"the worker ended during this run: {' '.join(str(error).split())}"}
         yield run, row
 
 

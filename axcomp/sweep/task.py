@@ -6,7 +6,6 @@ A worker may be on another machine: it gets the lists themselves, not their path
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import io
 import shutil
 import tempfile
@@ -21,6 +20,7 @@ import numpy as np
 
 from ..engine.engine import Engine
 from ..engine.trajectory import LIMITS, Columns, InputFile, Motion, completed
+from ..fmu.archive import content_guid
 from ..lists import Finding, Reading, Severity, read_machine
 from ..model.machine import Machine
 from .list_variation import ListEntry, Table, Value, read_files, varied
@@ -37,18 +37,10 @@ MACHINES_KEPT = 8
 
 @dataclass(frozen=True)
 class Source:
-    """What a machine is made of; equal for equal content.
+    """What a machine is made of; equal for equal content, of which ``digest`` is.
 
-    Attributes
-    ----------
-    digest : str
-        Of everything in it.
-    start : str
-        What ``read_machine`` is to read among the files; "" for an FMU.
-    files : mapping of str to bytes
-        The lists by relative path, or the one FMU.
-    known : frozenset of str
-        Findings about the lists as they are: these are no news in a run.
+    ``start``: what ``read_machine`` is to read among the files, "" for an FMU; ``files``: the lists by relative path,
+    or the one FMU; ``known``: findings about the lists as they are: these are no news in a run.
     """
 
     digest: str
@@ -59,11 +51,7 @@ class Source:
     @classmethod
     def of(cls, start: str, files: Mapping[str, bytes]) -> Source:
         """Return the source made of these files."""
-        digest = hashlib.sha256(start.encode())
-        for name in sorted(files):
-            digest.update(f"\0{name}\0{len(files[name])}\0".encode())
-            digest.update(files[name])
-        return cls(digest.hexdigest(), start, dict(files))
+        return cls(start + content_guid(files), start, dict(files))
 
     @property
     def is_fmu(self) -> bool:
@@ -179,10 +167,10 @@ def _simulate_fmu(
 
     if any(setting.of_lists for setting in run.values):
         raise ValueError("lists cannot be varied in an FMU; expected a machine given by its lists")
-    folder, description = _unpacked(source)
-    variables = description.modelVariables
-    types = {v.name: np.bool_ if v.type == "Boolean" else np.int32 if v.type == "Integer" else np.float64
-             for v in variables if v.causality == "input" and v.type != "String"}  # fmt: skip
+    unpacked = _unpacked(source)
+    variables = [v for v in unpacked.description.modelVariables if v.type != "String"]
+    types = {v.name: {"Boolean": np.bool_, "Integer": np.int32}.get(v.type, np.float64)
+             for v in variables if v.causality == "input"}  # fmt: skip
     given = _given(run, columns, set(types), cycle_time)
     for name in given:
         if name not in types:
@@ -192,12 +180,12 @@ def _simulate_fmu(
     rows["time"] = np.arange(cycles) * cycle_time
     for name, column in given.items():
         rows[name] = column
-    outputs = [v.name for v in variables if v.causality == "output" and v.type != "String"]
+    outputs = [v.name for v in variables if v.causality == "output"]
     # FMPy prints a line for every input that keeps its start value, in each run.
     with contextlib.redirect_stdout(io.StringIO()):
         recorded = simulate_fmu(
-            folder,
-            model_description=description,
+            unpacked.folder,
+            model_description=unpacked.description,
             validate=False,
             stop_time=cycles * cycle_time,
             step_size=cycle_time,
@@ -226,11 +214,4 @@ class _Unpacked:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-@lru_cache(MACHINES_KEPT)
-def _fmu(source: Source) -> _Unpacked:
-    return _Unpacked(source)
-
-
-def _unpacked(source: Source) -> tuple[str, Any]:
-    found = _fmu(source)
-    return found.folder, found.description
+_unpacked = lru_cache(MACHINES_KEPT)(_Unpacked)

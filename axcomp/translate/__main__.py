@@ -37,10 +37,8 @@ def main(arguments: list[str] | None = None) -> int:
     if options.check:
         stale = [path for path, text in files.items() if not path.is_file() or path.read_text("utf-8") != text]
         for path in stale:
-            print(
-                f"{_shortest(path)} is not what the kernel translates to: run python -m axcomp.translate",
-                file=sys.stderr,
-            )
+            text = f"{_shortest(path)} is not what the kernel translates to: run python -m axcomp.translate"
+            print(text, file=sys.stderr)
         return 1 if stale else 0
     if not options.output.is_dir():
         print(f"{options.output} is no folder: name one with --output", file=sys.stderr)

@@ -7,7 +7,7 @@ function that writes through its parameter, or if an alias of it is written thro
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from .program import Function, Program
@@ -29,27 +29,13 @@ def targets(node: ast.AST) -> list[ast.expr]:
     return [node.target] if isinstance(node, ast.AugAssign | ast.AnnAssign) else []
 
 
-def calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    """Yield every call of a plain name in ``node``, with the name."""
-    for part in ast.walk(node):
-        if isinstance(part, ast.Call) and isinstance(part.func, ast.Name):
-            yield part, part.func.id
-
-
 @dataclass
 class _Facts:
     """What one function does by itself, and what it inherits from those it calls.
 
-    Attributes
-    ----------
-    calls : list
-        Its calls of other functions: the function, and its parameters' names with the roots of the arguments.
-    aliases : list of tuple of str
-        Locals that are assigned from a path, with the root of the path.
-    written : set of str
-        Names it writes through.
-    reads, writes : set of str
-        Fields that it, or a function it calls, loads and stores.
+    ``calls``: its calls of other functions, with their parameters' names and the roots of the arguments; ``aliases``:
+    locals that are assigned from a path, with its root; ``written``: names it writes through; ``reads`` and ``writes``:
+    fields that it, or a function it calls, loads and stores.
     """
 
     calls: list[tuple[Function, list[tuple[str, str]]]]
@@ -74,13 +60,7 @@ class _Facts:
 
 
 class Effects:
-    """Effects of all functions of a program.
-
-    Attributes
-    ----------
-    written_fields : set of str
-        Names of all fields that are assigned anywhere.
-    """
+    """Effects of all functions of a program; ``written_fields``: all that are assigned anywhere."""
 
     def __init__(self, program: Program) -> None:
         self._program = program
@@ -101,12 +81,18 @@ class Effects:
                     facts.written.add(root(target))
                 elif isinstance(node, ast.Assign | ast.AnnAssign) and node.value:
                     facts.aliases.append((target.id, root(node.value)))
-        for call, name in calls(function.node):
-            callee = self._program.function_named(function.module, name)
-            if callee:
-                pairs = zip(callee.parameters, call.args, strict=False)
-                facts.calls.append((callee, [(parameter, root(argument)) for parameter, argument in pairs]))
+        for call, callee in self._calls(function.module, function.node):
+            pairs = zip(callee.parameters, call.args, strict=False)
+            facts.calls.append((callee, [(parameter, root(argument)) for parameter, argument in pairs]))
         return facts
+
+    def _calls(self, module: Module, node: ast.AST) -> Iterator[tuple[ast.Call, Function]]:
+        """Yield every call of a function of the program in ``node``, with that function."""
+        for part in ast.walk(node):
+            if isinstance(part, ast.Call) and isinstance(part.func, ast.Name):
+                callee = self._program.names[module.name].get(part.func.id)
+                if isinstance(callee, Function):
+                    yield part, callee
 
     def written(self, function: Function) -> set[str]:
         """Return the parameters and aliases that a function writes through."""
@@ -118,16 +104,13 @@ class Effects:
 
     def changes(self, module: Module, node: ast.AST) -> ast.Call | None:
         """Return a call in ``node`` that changes one of its arguments, None if there is none."""
-        for call, name in calls(node):
-            callee = self._program.function_named(module, name)
-            if callee and any(parameter in self.written(callee) for parameter in callee.parameters):
-                return call
-        return None
+        changing = (call for call, callee in self._calls(module, node) if self.written(callee) & set(callee.parameters))
+        return next(changing, None)
 
-    def reachable(self) -> set[str]:
-        """Return the names in C of the exported functions and of all they call."""
+    def reached_from(self, functions: Iterable[Function]) -> set[str]:
+        """Return the names in C of functions and of all they call, directly or through others."""
         found: set[str] = set()
-        waiting = [function for function in self._program.functions() if function.exported]
+        waiting = list(functions)
         while waiting:
             function = waiting.pop()
             if function.c_name not in found:
@@ -153,15 +136,8 @@ class Effects:
 
     def check_recursion(self, function: Function) -> None:
         """Refuse a function that calls itself, directly or through others: a step has a bounded stack."""
-        found: set[str] = set()
-        waiting = self.callees(function)
-        while waiting:
-            callee = waiting.pop()
-            if callee is function:
-                raise RefusedError(function.node, f"{function.name} calls itself: the kernel has no recursion")
-            if callee.c_name not in found:
-                found.add(callee.c_name)
-                waiting += self.callees(callee)
+        if function.c_name in self.reached_from(self.callees(function)):
+            raise RefusedError(function.node, f"{function.name} calls itself: the kernel has no recursion")
 
     def check_order(self, module: Module, node: ast.stmt) -> None:
         """Refuse what Python evaluates in one order and C in any: a change beside another change or a read."""
@@ -181,7 +157,8 @@ class Effects:
                         self._check_siblings(module, [left, *others])
                         call = self.changes(module, inner) if len(others) > 1 else None
                         if call:
-                            raise RefusedError(call, f"{_name(call)} changes its arguments: keep it out of a chain")
+                            name = ast.unparse(call.func)
+                            raise RefusedError(call, f"{name} changes its arguments: keep it out of a chain")
                     case ast.Call(args=arguments):
                         self._check_siblings(module, arguments)
                     case ast.Subscript(value=value, slice=index):
@@ -193,7 +170,7 @@ class Effects:
             if call and any(self._minds(module, other, one) for other in siblings if other is not one):
                 raise RefusedError(
                     call,
-                    f"{_name(call)} changes its arguments, and C may evaluate it before or after the rest:"
+                    f"{ast.unparse(call.func)} changes its arguments, and C may evaluate it before or after the rest:"
                     " give the call a statement of its own",
                 )
 
@@ -202,13 +179,9 @@ class Effects:
         if self.changes(module, other):
             return True
         reads = _fields(other) | _fields(other, ast.Store)
-        for callee in self._callees_in(module, other):
+        for _, callee in self._calls(module, other):
             reads |= self._facts[callee.c_name].reads
-        return any(reads & self._facts[callee.c_name].writes for callee in self._callees_in(module, changing))
-
-    def _callees_in(self, module: Module, node: ast.expr) -> list[Function]:
-        found = (self._program.function_named(module, name) for _, name in calls(node))
-        return [callee for callee in found if callee]
+        return any(reads & self._facts[callee.c_name].writes for _, callee in self._calls(module, changing))
 
 
 _ELEMENT = "[]"
@@ -221,10 +194,6 @@ def _fields(node: ast.AST, context: type[ast.expr_context] = ast.Load) -> set[st
         for part in ast.walk(node)
         if isinstance(part, ast.Attribute | ast.Subscript) and isinstance(part.ctx, context)
     }
-
-
-def _name(call: ast.Call) -> str:
-    return ast.unparse(call.func)
 
 
 def _indices(target: ast.expr) -> list[ast.expr]:

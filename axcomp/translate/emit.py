@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from .effects import Effects
 from .kinds import struct_field
-from .program import Constant, Definition, Function, Program, Record
+from .program import Constant, Definition, Function, Program, Struct
 from .source import Module, read_modules
 from .statements import Body, prototype
 from .subset import Report
@@ -41,35 +41,19 @@ _PRAGMAS = """\
 """
 
 
-@dataclass(frozen=True)
-class Translation:
-    """The generated files.
-
-    Attributes
-    ----------
-    header : str
-        Constants, records, exported functions.
-    source : str
-        All functions.
-    """
+class Translation(NamedTuple):
+    """The generated files: ``header`` with constants, records and exported functions, ``source`` with all functions."""
 
     header: str
     source: str
 
 
 def translate(folder: Path, exports: Sequence[str], *, name: str = "kernel", prefix: str = "axcomp_") -> Translation:
-    """Translate the modules in ``folder`` that the exported functions need.
+    """Translate the modules in ``folder`` that the exported functions need, to ``name.c`` and ``name.h``.
 
-    Parameters
-    ----------
-    folder : Path
-        A package of restricted Python with the run-time module ``record``.
-    exports : sequence of str
-        Functions that other C code may call; whatever they do not reach is checked, but not written.
-    name : str
-        The files will be called ``name.c`` and ``name.h``.
-    prefix : str
-        What the exported functions' names in C begin with.
+    The folder is a package of restricted Python with the run-time module ``record``. ``exports``: functions that other
+    C code may call; whatever they do not reach is checked, but not written. ``prefix``: what their names in C begin
+    with.
 
     Raises TranslationError with everything that is outside the subset.
     """
@@ -108,9 +92,7 @@ def _header(program: Program, effects: Effects, name: str, origin: str) -> str:
     for function in program.functions():
         if function.exported:
             writer.blank()
-            text = ast.get_docstring(function.node)
-            if text:
-                writer.remark(text.partition("\n\n")[0])
+            _describe(writer, function, first_only=True)
             writer.write(f"{api} {prototype(function, effects)};")
     writer.blank()
     writer.extend(["#ifdef __cplusplus", "}", "#endif", "", "#endif"])
@@ -118,7 +100,7 @@ def _header(program: Program, effects: Effects, name: str, origin: str) -> str:
 
 
 def _source(program: Program, effects: Effects, bodies: dict[str, list[str]], name: str, origin: str) -> str:
-    reachable = effects.reachable()
+    reachable = effects.reached_from(function for function in program.functions() if function.exported)
     functions = [function for function in program.functions() if function.c_name in reachable]
     writer = Writer()
     writer.remark(origin)
@@ -138,17 +120,19 @@ def _source(program: Program, effects: Effects, bodies: dict[str, list[str]], na
             _section(writer, module, described=bool(module.functions()))
         for constant in constants:
             _lead_in(writer, constant)
-            _write_constant(writer, constant)
+            _write_definition(writer, constant)
         for function in own:
             writer.blank()
             _lead_in(writer, function)
-            _write_function(writer, function, effects, bodies[function.c_name])
+            _describe(writer, function)
+            writer.write(prototype(function, effects))
+            writer.extend(["{", *bodies[function.c_name], "}"])
     return writer.text()
 
 
 def _in_header(definition: Definition) -> bool:
     """Whether other C files see it: records, and constants that are not private to their module."""
-    return isinstance(definition, Record) or (isinstance(definition, Constant) and not definition.name.startswith("_"))
+    return isinstance(definition, Struct) or (isinstance(definition, Constant) and not definition.name.startswith("_"))
 
 
 def _section(writer: Writer, module: Module, *, described: bool) -> None:
@@ -174,51 +158,36 @@ def _lead_in(writer: Writer, definition: Definition) -> None:
         writer.remark("\n".join(notes))
 
 
-def _docstring_behind(body: Sequence[ast.stmt], node: ast.stmt) -> str:
-    """Return the string that stands behind a constant or field and describes it."""
-    following = body[body.index(node) + 1 :][:1]
-    match following:
-        case [ast.Expr(value=ast.Constant(value=str() as text))]:
-            return " ".join(text.split())
-    return ""
-
-
-def _write_definition(writer: Writer, definition: Definition) -> None:
-    if isinstance(definition, Constant):
-        _write_constant(writer, definition)
-    elif isinstance(definition, Record):
-        _write_record(writer, definition)
+def _describe(writer: Writer, definition: Function | Struct, *, first_only: bool = False) -> None:
+    """Write a docstring, or its first paragraph, as a comment."""
+    text = ast.get_docstring(definition.node)
+    if text:
+        writer.remark(text.partition("\n\n")[0] if first_only else text)
 
 
 def _note(module: Module, node: ast.stmt, body: Sequence[ast.stmt]) -> str:
+    """Return the comments on the lines of a constant or field, and the string behind it that describes it."""
     lines = range(node.lineno, (node.end_lineno or node.lineno) + 1)
     notes = [module.comments[line].text for line in lines if line in module.comments]
-    return "\n".join([*notes, _docstring_behind(body, node)]).strip()
+    match body[body.index(node) + 1 :]:
+        case [ast.Expr(value=ast.Constant(value=str() as text)), *_]:
+            notes.append(" ".join(text.split()))
+    return "\n".join(notes).strip()
 
 
-def _write_constant(writer: Writer, constant: Constant) -> None:
-    note = _note(constant.module, constant.node, constant.module.tree.body)
-    origin = [constant.origin] if constant.origin else []
-    writer.write(f"#define {constant.c_name} {constant.text}", "\n".join([*origin, *filter(None, [note])]))
-
-
-def _write_record(writer: Writer, record: Record) -> None:
-    text = ast.get_docstring(record.node)
-    if text:
-        writer.remark(text)
-    writer.write("typedef struct {")
-    writer.depth += 1
-    for node in record.node.body:
-        if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-            note = _note(record.module, node, record.node.body)
-            writer.write(f"{struct_field(record.fields[node.target.id], node.target.id)};", note)
-    writer.depth -= 1
-    writer.write(f"}} {record.c_name};")
-
-
-def _write_function(writer: Writer, function: Function, effects: Effects, lines: list[str]) -> None:
-    text = ast.get_docstring(function.node)
-    if text:
-        writer.remark(text)
-    writer.write(prototype(function, effects))
-    writer.extend(["{", *lines, "}"])
+def _write_definition(writer: Writer, definition: Definition) -> None:
+    """Write a constant or a record."""
+    if isinstance(definition, Constant):
+        note = _note(definition.module, definition.node, definition.module.tree.body)
+        notes = "\n".join(filter(None, [definition.origin, note]))
+        writer.write(f"#define {definition.c_name} {definition.text}", notes)
+    elif isinstance(definition, Struct):
+        _describe(writer, definition)
+        writer.write("typedef struct {")
+        writer.depth += 1
+        for node in definition.node.body:
+            if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+                note = _note(definition.module, node, definition.node.body)
+                writer.write(f"{struct_field(definition.fields[node.target.id], node.target.id)};", note)
+        writer.depth -= 1
+        writer.write(f"}} {definition.c_name};")

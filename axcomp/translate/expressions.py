@@ -7,10 +7,12 @@ Whatever Python and C would evaluate differently is refused, above all an int wh
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
-from .kinds import NUMBERS, VEC, ArrayType, RecordType, Scalar, Type, VecType, element_of
-from .program import BROKEN, Constant, Function, Intrinsic, Number, Program, check_range, fold
+from .kinds import NUMBERS, ArrayType, RecordType, Scalar, Type, VecType, element_of
+from .program import Constant, Function, Intrinsic, Number, Program, check_range, fold
 from .source import Module
 from .subset import TEXT, RefusedError, outside
 from .writer import UNBROKEN
@@ -37,6 +39,7 @@ _COMPARE: dict[type[ast.cmpop], tuple[str, int]] = {
     ast.Eq: ("==", EQUAL),
     ast.NotEq: ("!=", EQUAL),
 }
+_KINDS: dict[type, Scalar] = {bool: Scalar.BOOL, int: Scalar.INT, float: Scalar.FLOAT}
 _AND_IN_CHAIN = f"{UNBROKEN}&&{UNBROKEN}"
 _HINTS = {
     "int for float": ": write 0.0 for 0, or float(…)",
@@ -47,20 +50,9 @@ _HINTS = {
 
 @dataclass(frozen=True)
 class Text:
-    """An expression in C.
+    """An expression in C: what C writes, the precedence of its outermost operator, its type.
 
-    Attributes
-    ----------
-    c : str
-        What C writes.
-    level : int
-        Precedence of its outermost operator.
-    kind : Type
-        Its type.
-    value : int, float, bool or None
-        Its value where the translator knows it.
-    pointer : bool
-        A record that is reached through a pointer.
+    ``value``: where the translator knows it. ``pointer``: a record that is reached through a pointer.
     """
 
     c: str
@@ -95,42 +87,31 @@ def operator_of(node: ast.AST, kind: ast.operator, left: Type, right: Type) -> t
 class Expressions:
     """Translates the expressions of one function.
 
-    Attributes
-    ----------
-    kinds : dict of str to Type or None
-        The locals known so far; None marks one whose assignment was refused.
+    ``kinds``: the locals known so far; None marks one whose assignment was refused.
     """
 
     def __init__(self, program: Program, module: Module, kinds: dict[str, Type | None]) -> None:
         self._program, self._module = program, module
         self.kinds = kinds
+        self._by_kind: dict[type[ast.expr], Callable[[Any], Text]] = {
+            ast.Constant: self._literal,
+            ast.Name: self._name,
+            ast.Attribute: self._attribute,
+            ast.Subscript: self._element,
+            ast.UnaryOp: self._unary,
+            ast.BinOp: self._binary,
+            ast.Compare: self._comparison,
+            ast.BoolOp: self._junction,
+            ast.IfExp: self._choice,
+            ast.Call: self._call,
+        }
 
     def text(self, node: ast.expr) -> Text:
         """Translate any expression."""
-        match node:
-            case ast.Constant():
-                return self._literal(node)
-            case ast.Name():
-                return self._name(node)
-            case ast.Attribute():
-                return self._attribute(node)
-            case ast.Subscript():
-                return self._element(node)
-            case ast.UnaryOp():
-                return self._unary(node)
-            case ast.BinOp():
-                return self._binary(node)
-            case ast.Compare():
-                return self._comparison(node)
-            case ast.BoolOp(op=kind, values=values):
-                if isinstance(kind, ast.And):
-                    return Text(" && ".join(self.condition(value).at(AND) for value in values), AND, Scalar.BOOL)
-                return Text(" || ".join(self.condition(value).at(BIT_OR) for value in values), OR, Scalar.BOOL)
-            case ast.IfExp(test=test, body=body, orelse=orelse):
-                return self._choice(node, self.condition(test), self.text(body), self.text(orelse))
-            case ast.Call():
-                return self._call(node)
-        raise outside(node)
+        translate = self._by_kind.get(type(node))
+        if translate is None:
+            raise outside(node)
+        return translate(node)
 
     def of(self, node: ast.expr, kind: Type, what: str) -> Text:
         """Translate an expression whose type must be ``kind``; ``what`` says what it is for."""
@@ -161,8 +142,7 @@ class Expressions:
     def _literal(self, node: ast.Constant) -> Text:
         match node.value:
             case bool(value) | int(value) | float(value):
-                kind = {bool: Scalar.BOOL, int: Scalar.INT, float: Scalar.FLOAT}[type(value)]
-                return Text(self._module.literal(node), POSTFIX, kind, check_range(node, value))
+                return Text(self._module.literal(node), POSTFIX, _KINDS[type(value)], check_range(node, value))
             case str() | bytes():
                 raise RefusedError(node, TEXT)
         raise RefusedError(node, f"{node.value!r} is no value in C")
@@ -173,12 +153,9 @@ class Expressions:
             if kind is None:
                 raise RefusedError(node, "")
             return Text(node.id, POSTFIX, kind, pointer=isinstance(kind, RecordType))
-        entity = self._program.names[self._module.name].get(node.id)
+        entity = self._program.entity(self._module, node)
         if isinstance(entity, Constant):
-            kind = {int: Scalar.INT, float: Scalar.FLOAT, bool: Scalar.BOOL}[type(entity.value)]
-            return Text(entity.c_name, POSTFIX, kind, entity.value)
-        if entity == BROKEN:
-            raise RefusedError(node, "")
+            return Text(entity.c_name, POSTFIX, _KINDS[type(entity.value)], entity.value)
         raise RefusedError(node, f"{node.id} is {'no value' if entity else 'not known here'}")
 
     def _attribute(self, node: ast.Attribute) -> Text:
@@ -252,7 +229,12 @@ class Expressions:
             left = right
         return parts[0] if len(parts) == 1 else Text(_AND_IN_CHAIN.join(part.c for part in parts), AND, Scalar.BOOL)
 
-    def _choice(self, node: ast.IfExp, test: Text, body: Text, orelse: Text) -> Text:
+    def _junction(self, node: ast.BoolOp) -> Text:
+        sign, level, inner = (" && ", AND, AND) if isinstance(node.op, ast.And) else (" || ", OR, BIT_OR)
+        return Text(sign.join(self.condition(value).at(inner) for value in node.values), level, Scalar.BOOL)
+
+    def _choice(self, node: ast.IfExp) -> Text:
+        test, body, orelse = self.condition(node.test), self.text(node.body), self.text(node.orelse)
         if body.kind not in NUMBERS or body.kind != orelse.kind:
             raise RefusedError(
                 node, f"one side is {body.kind}, the other {orelse.kind}: both are the same kind of number"
@@ -265,13 +247,11 @@ class Expressions:
         if node.keywords:
             raise RefusedError(node, "arguments are given by position")
         name = node.func.id
-        entity = self._program.names[self._module.name].get(name)
         if name in self.kinds:
             raise RefusedError(node, f"{name} is a local, not a function")
+        entity = self._program.entity(self._module, node.func)
         if isinstance(entity, Function):
             return self._call_of(node, entity)
-        if entity == BROKEN:
-            raise RefusedError(node, "")
         if entity in (None, Intrinsic(name)):
             return self._intrinsic(node, name, known=entity is not None)
         raise RefusedError(node, f"{name} is no function: a record is made outside the kernel")
@@ -291,14 +271,14 @@ class Expressions:
         if isinstance(kind, Scalar):
             return self.of(node, kind, what).c
         text = self.text(node)
-        long_enough = (
-            isinstance(kind, ArrayType)
-            and isinstance(text.kind, ArrayType)
-            and text.kind.element == kind.element
-            and text.kind.length >= kind.length
-        )
-        as_table = kind == VEC and isinstance(text.kind, ArrayType) and text.kind.element is Scalar.FLOAT
-        if not (text.kind == kind or long_enough or as_table):
+        match text.kind, kind:
+            case ArrayType() as given, ArrayType() as wanted:
+                fits = given.element == wanted.element and given.length >= wanted.length
+            case ArrayType(element=element), VecType():
+                fits = element is Scalar.FLOAT
+            case _:
+                fits = text.kind == kind
+        if not fits:
             raise RefusedError(node, f"{what} is {kind}, this is {text.kind}")
         return f"&{text.at(POSTFIX)}" if isinstance(kind, RecordType) and not text.pointer else text.c
 

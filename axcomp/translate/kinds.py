@@ -34,14 +34,7 @@ class RecordType:
 class ArrayType:
     """``Annotated[list[element], length]`` or ``zeros(length)``: an array of fixed length.
 
-    Attributes
-    ----------
-    element : Scalar or RecordType
-        Type of one element, never Scalar.NONE.
-    length : int
-        Number of elements.
-    length_text : str
-        The same as the C source writes it, a number or the name of a constant.
+    The element is never Scalar.NONE; ``length_text``: the length as C writes it, a number or the name of a constant.
     """
 
     element: Scalar | RecordType
@@ -77,7 +70,7 @@ def _base(kind: Scalar | RecordType) -> str:
 def parameter(kind: Type, name: str, *, const: bool) -> str:
     """Declare a parameter; ``const``: nothing is written through it."""
     if isinstance(kind, ArrayType):
-        return f"{'const ' if const else ''}{_base(kind.element)} {name}[{kind.length_text}]"
+        return f"{'const ' if const else ''}{struct_field(kind, name)}"
     return local(kind, name, const=const)
 
 

@@ -13,30 +13,17 @@ from .writer import Writer
 class Margins:
     """Follows one function from its first line to its last; each comment is written once.
 
-    Parameters
-    ----------
-    module : Module
-        The source.
-    writer : Writer
-        Takes the comments and blank lines.
-    line : int
-        The last line that needs nothing more: that of the docstring, or of the function's head.
+    ``line``: the last one that needs nothing more, that of the docstring or of the function's head.
     """
 
     def __init__(self, module: Module, writer: Writer, line: int) -> None:
         self._module, self._writer, self._last = module, writer, line
 
     def lead_in(self, line: int, declare: Callable[[], None], *, first: bool = False) -> None:
-        """Write what stands above a statement.
+        """Write what stands above a statement that begins at ``line``.
 
-        Parameters
-        ----------
-        line : int
-            Where the statement begins.
-        declare : function
-            Writes the declarations that belong above it: behind the blank line, ahead of the comments.
-        first : bool
-            The statement is the first of its block, no blank line goes above it.
+        ``declare`` writes the declarations that belong above it: behind the blank line, ahead of the comments.
+        ``first``: the statement is the first of its block, no blank line goes above it.
         """
         pending: list[str] = []
         declared = False

@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from .kinds import VEC, ArrayType, RecordType, Scalar, Type
-from .names import c_name, check_name
 from .source import RUN_TIME_MODULE, Module
-from .subset import RefusedError, Report, outside
+from .subset import RefusedError, Report, c_name, check_name, outside
 
 Number: TypeAlias = int | float | bool
 
@@ -63,7 +62,7 @@ class Constant:
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class Struct:
     """A dataclass: a struct in C."""
 
     name: str
@@ -95,7 +94,7 @@ class Alias:
     module: Module
 
 
-Definition: TypeAlias = Constant | Record | Function
+Definition: TypeAlias = Constant | Struct | Function
 Entity: TypeAlias = Definition | Alias | Intrinsic
 
 
@@ -121,22 +120,10 @@ def check_range(node: ast.AST, value: Number) -> Number:
 
 @dataclass
 class Program:
-    """All definitions of the modules.
+    """All definitions of the modules, which are in order of dependency; what is refused goes to the report.
 
-    Attributes
-    ----------
-    modules : sequence of Module
-        In order of dependency.
-    exports : sequence of str
-        Functions that other C code may call.
-    prefix : str
-        What their names in C begin with.
-    report : Report
-        Takes what is refused.
-    names : dict of str to dict
-        For each module the names it can use.
-    definitions : list
-        Constants, records and functions in the order of the source.
+    ``exports``: functions that other C code may call; ``prefix``: what their names in C begin with; ``names``: for each
+    module those it can use; ``definitions``: constants, records and functions in the order of the source.
     """
 
     modules: Sequence[Module]
@@ -159,22 +146,24 @@ class Program:
                     for name in _bound_by(node):
                         self.names[module.name].setdefault(name, BROKEN)
         for definition in self.definitions:
-            if isinstance(definition, Record):
+            if isinstance(definition, Struct):
                 self._check_fields(definition)
 
-    def function_named(self, module: Module, name: str) -> Function | None:
-        """Return the function that ``name`` means in a module, None if it means something else."""
-        entity = self.names[module.name].get(name)
-        return entity if isinstance(entity, Function) else None
+    def entity(self, module: Module, node: ast.expr) -> Entity | None:
+        """Return what a name means in a module, None if nothing; refuses what has been refused where it was defined."""
+        entity = self.names[module.name].get(node.id) if isinstance(node, ast.Name) else None
+        if entity == BROKEN:
+            raise RefusedError(node, "")
+        return entity
 
     def defined_as(self, name_in_c: str) -> Definition | None:
         """Return what has a name at C's file scope."""
         return self._by_c_name.get(name_in_c)
 
-    def record_of(self, kind: RecordType) -> Record:
+    def record_of(self, kind: RecordType) -> Struct:
         """Return the record of a type."""
         record = self._by_c_name[kind.name]
-        assert isinstance(record, Record)
+        assert isinstance(record, Struct)
         return record
 
     def functions(self) -> list[Function]:
@@ -187,18 +176,15 @@ class Program:
             raise RefusedError(owner, f"{getattr(owner, 'arg', getattr(owner, 'name', 'this'))} has no annotation")
         if isinstance(node, ast.Constant) and node.value is None:
             return Scalar.NONE
-        if isinstance(node, ast.Name):
-            entity = self.names[module.name].get(node.id)
-            if isinstance(entity, Record):
-                return RecordType(entity.c_name)
-            if isinstance(entity, Alias):
-                return entity.kind
-            if entity == Intrinsic("Vec"):
-                return VEC
-            if entity == BROKEN:
-                raise RefusedError(node, "")
-            if node.id in _SCALARS:
-                return _SCALARS[node.id]
+        entity = self.entity(module, node)
+        if isinstance(entity, Struct):
+            return RecordType(entity.c_name)
+        if isinstance(entity, Alias):
+            return entity.kind
+        if entity == Intrinsic("Vec"):
+            return VEC
+        if isinstance(node, ast.Name) and node.id in _SCALARS:
+            return _SCALARS[node.id]
         if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id == "Annotated":
             return self._array(module, node)
         raise RefusedError(node, f"{ast.unparse(node)} is no type of the subset")
@@ -208,10 +194,8 @@ class Program:
         value, text = None, ""
         if isinstance(node, ast.Constant):
             value, text = node.value, str(node.value)
-        elif isinstance(node, ast.Name):
-            entity = self.names[module.name].get(node.id)
-            if isinstance(entity, Constant):
-                value, text = entity.value, entity.c_name
+        elif isinstance(entity := self.names[module.name].get(ast.unparse(node)), Constant):
+            value, text = entity.value, entity.c_name
         if type(value) is not int or value < 1:
             raise RefusedError(
                 node, f"{ast.unparse(node)} is no length: it takes a whole number or a constant, at least 1"
@@ -270,8 +254,8 @@ class Program:
         check_name(node, definition.name, file_scope=True)
         other = self._by_c_name.get(definition.c_name)
         if other:
-            place = f"{other.module.file}:{other.node.lineno}"
-            raise RefusedError(node, f"{definition.name} would be the same name in C as {other.name} at {place}")
+            line = f"{other.module.file}:{other.node.lineno}"
+            raise RefusedError(node, f"{definition.name} would be the same name in C as {other.name} at {line}")
         self._by_c_name[definition.c_name] = definition
         self.names[definition.module.name][definition.name] = definition
         self.definitions.append(definition)
@@ -291,12 +275,8 @@ class Program:
         match node:
             case ast.Constant(value=bool() | int() | float() as value):
                 return check_range(node, value)
-            case ast.Name(id=name):
-                entity = self.names[module.name].get(name)
-                if isinstance(entity, Constant):
-                    return entity.value
-                if entity == BROKEN:
-                    raise RefusedError(node, "")
+            case ast.Name() if isinstance(entity := self.entity(module, node), Constant):
+                return entity.value
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return check_range(node, -self._value(module, operand))
             case ast.BinOp(left=left, op=kind, right=right):
@@ -308,7 +288,7 @@ class Program:
             raise RefusedError(node, f"{node.name} is no record: write @dataclass(slots=True)")
         if node.bases or node.keywords:
             raise RefusedError(node, f"{node.name} has bases: a record stands alone")
-        record = Record(node.name, c_name(node.name), {}, module, node)
+        record = Struct(node.name, c_name(node.name), {}, module, node)
         for item in node.body:
             with self.report.catching(module.file):
                 match item:
@@ -329,7 +309,7 @@ class Program:
             raise RefusedError(node, f"{node.name} has no fields: C has no empty struct")
         self._define(record)
 
-    def _check_fields(self, record: Record) -> None:
+    def _check_fields(self, record: Struct) -> None:
         """Refuse fields that are pointers, and those called like a constant: C would put the number in their place."""
         module = record.module
         for item in record.node.body:

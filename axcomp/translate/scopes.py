@@ -52,15 +52,7 @@ def _is_first_assignment(node: ast.stmt, name: str) -> bool:
 
 @dataclass
 class Declarations:
-    """Where the locals of a function are declared.
-
-    Attributes
-    ----------
-    by : set of ast.stmt
-        Assignments that declare their target.
-    ahead : dict of ast.stmt to list of str
-        Locals declared without a value ahead of a statement.
-    """
+    """Where the locals of a function are declared: by assignments, or without a value ahead of statements."""
 
     by: set[ast.stmt] = field(default_factory=set)
     ahead: dict[ast.stmt, list[str]] = field(default_factory=dict)

@@ -28,18 +28,9 @@ class Comment:
 
 
 class Module:
-    """One source file.
+    """One source file: its name without ``.py``, its path as refusals name it, its syntax.
 
-    Attributes
-    ----------
-    name : str
-        File name without ``.py``.
-    file : str
-        Path as refusals name it.
-    tree : ast.Module
-        Its syntax.
-    comments : dict of int to Comment
-        By line; those meant for linters are left out.
+    ``comments``: by line; those meant for linters are left out.
     """
 
     def __init__(self, name: str, file: str, text: str) -> None:

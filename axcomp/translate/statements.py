@@ -10,10 +10,9 @@ from .effects import Effects, root
 from .expressions import SHIFT, Expressions, Text, operator_of
 from .kinds import ArrayType, RecordType, Scalar, Type, VecType, local, parameter
 from .margins import Margins
-from .names import check_name
-from .program import Constant, Function, Intrinsic, Program, Record
+from .program import Constant, Function, Intrinsic, Program, Struct
 from .scopes import Block, Declarations, Flow, mentions, names_in, stores
-from .subset import RefusedError, outside
+from .subset import RefusedError, check_name, outside
 from .writer import Writer
 
 
@@ -34,13 +33,7 @@ class _Ahead:
 
 
 class Body:
-    """Translates the body of one function.
-
-    Attributes
-    ----------
-    writer : Writer
-        Takes the lines.
-    """
+    """Translates the body of one function; ``writer`` takes the lines."""
 
     def __init__(self, program: Program, effects: Effects, function: Function, writer: Writer) -> None:
         self._program, self._effects, self._function, self.writer = program, effects, function, writer
@@ -84,14 +77,14 @@ class Body:
         loaded = {name.id for name in names_in(node, ast.Load)}
         own: dict[str, ast.AST] = {**dict.fromkeys(parameters, node), **stored}
         called = {callee.c_name for callee in self._effects.callees(self._function)}
-        for name, place in own.items():
+        for name, first in own.items():
             with self._report.catching(self._module.file):
-                check_name(place, name)
+                check_name(first, name)
                 taken = self._program.defined_as(name)
-                if name in called or isinstance(taken, Constant | Record):
-                    raise RefusedError(place, f"{name} is also the name of something at module level: choose another")
+                if name in called or isinstance(taken, Constant | Struct):
+                    raise RefusedError(first, f"{name} is also the name of something at module level: choose another")
                 if name not in loaded and name not in self._counters:
-                    raise RefusedError(place, f"{name} is never read")
+                    raise RefusedError(first, f"{name} is never read")
         return set(stored) - set(parameters)
 
     # ---- blocks and statements
@@ -176,21 +169,21 @@ class Body:
         if isinstance(target, ast.Name):
             self._assign_local(node, target, value, stated, note)
             return
-        place = self._place(target)
-        text = self._expressions.of(value, place.kind, ast.unparse(target))
-        self.writer.write(f"{place.c} = {text.c};", note)
+        written = self._target(target)
+        text = self._expressions.of(value, written.kind, ast.unparse(target))
+        self.writer.write(f"{written.c} = {text.c};", note)
 
-    def _place(self, target: ast.expr) -> Text:
+    def _target(self, target: ast.expr) -> Text:
         """Translate the field or element that is assigned to."""
         if not isinstance(target, ast.Attribute | ast.Subscript):
             raise outside(target)
         owner = self._expressions.text(target.value)
         if isinstance(owner.kind, VecType):
             raise RefusedError(target, "a Vec is only read: take Annotated[list[float], N]")
-        place = self._expressions.text(target)
-        if not isinstance(place.kind, Scalar):
-            raise RefusedError(target, f"{place.kind} is not assigned: Python would share it, C would copy it")
-        return place
+        text = self._expressions.text(target)
+        if not isinstance(text.kind, Scalar):
+            raise RefusedError(target, f"{text.kind} is not assigned: Python would share it, C would copy it")
+        return text
 
     def _assign_local(self, node: ast.stmt, target: ast.Name, value: ast.expr, stated: Type | None, note: str) -> None:
         name = target.id
@@ -251,20 +244,20 @@ class Body:
         self.writer.write(f"double {name}[{text}] = {{0}};", note)
 
     def _augment(self, node: ast.AugAssign, note: str) -> None:
-        place = self._expressions.text(node.target) if isinstance(node.target, ast.Name) else self._place(node.target)
+        target = self._expressions.text(node.target) if isinstance(node.target, ast.Name) else self._target(node.target)
         if isinstance(node.target, ast.Name) and node.target.id in self._loops:
             raise RefusedError(node, f"{node.target.id} counts the loop: it is not assigned in it")
         if isinstance(node.target, ast.Name) and node.target.id not in self._kinds:
             raise RefusedError(node, f"{node.target.id} is a constant")
         value = self._expressions.text(node.value)
-        sign, _, kind = operator_of(node, node.op, place.kind, value.kind)
+        sign, _, kind = operator_of(node, node.op, target.kind, value.kind)
         self._expressions.check_divisor(node, node.op, value)
-        if kind != place.kind:
-            raise RefusedError(node, f"{ast.unparse(node.target)} is {place.kind}, this makes it {kind}")
+        if kind != target.kind:
+            raise RefusedError(node, f"{ast.unparse(node.target)} is {target.kind}, this makes it {kind}")
         if sign.startswith("int_"):
-            self.writer.write(f"{place.c} = {sign}({place.c}, {value.c});", note)
+            self.writer.write(f"{target.c} = {sign}({target.c}, {value.c});", note)
         else:
-            self.writer.write(f"{place.c} {sign}= {value.c};", note)
+            self.writer.write(f"{target.c} {sign}= {value.c};", note)
 
     # ---- compound statements
 

@@ -29,15 +29,7 @@ def comment(text: str) -> list[str]:
 
 
 class Writer:
-    """Collects the lines of a C file.
-
-    Attributes
-    ----------
-    lines : list of str
-        What has been written.
-    depth : int
-        Blocks around the next line.
-    """
+    """Collects the lines of a C file; ``depth``: blocks around the next line."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []
@@ -76,10 +68,10 @@ def wrap(line: str, indent: int) -> list[str]:
     start = indent + 2 * len(_STEP)
     lines = []
     while len(line) > WIDTH:
-        places = [match for match in _BREAK.finditer(line) if start < match.start() <= WIDTH]
-        if not places:
+        breaks = [match for match in _BREAK.finditer(line) if start < match.start() <= WIDTH]
+        if not breaks:
             break
-        best = min(places, key=lambda match: _cost(line, match)).start()
+        best = min(breaks, key=lambda match: _cost(line, match)).start()
         lines.append(line[:best])
         line = " " * start + line[best + 1 :]
     return [part.replace(UNBROKEN, " ") for part in (*lines, line)]
@@ -87,6 +79,6 @@ def wrap(line: str, indent: int) -> list[str]:
 
 def _cost(line: str, match: re.Match[str]) -> tuple[int, int, int]:
     """Return how bad it is to break a line here: in parentheses, at a strong operator, early."""
-    place, operator = match.start(), match.group(1)
-    depth = line.count("(", 0, place) - line.count(")", 0, place)
-    return depth, _BINDING.index(operator) if operator else -1, -place
+    column, operator = match.start(), match.group(1)
+    depth = line.count("(", 0, column) - line.count(")", 0, column)
+    return depth, _BINDING.index(operator) if operator else -1, -column

@@ -208,9 +208,17 @@ static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
     return int_floor_div(2 * step * after + before, 2 * before);
 }
 
-/* Keep a switch where it stands between off and on: its step becomes the one of about the same weight. */
-static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state)
+/* Keep a switch where it stands between off and on: its step becomes the one of about the same weight.
+ *
+ * What activates automatically and had no table needs no command: it comes on as soon as its conditions hold.
+ */
+static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state, bool enable)
 {
+    if (after->configured && !before->configured && !after->manual) {
+        state->enable = enable;
+        state->command = enable;
+        state->granted = enable;
+    }
     state->step = mapped_step(state->step, before->cycles, after->cycles);
     if (!after->configured) {
         state->step = 0;
@@ -1347,6 +1355,8 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
                     axis->settled = axis->settled && settled;
                 }
             }
+        } else if (!axis->started) {
+            state->enable = given->enable[kind];
         }
         if (!axis->held) {
             out->active[kind] = state->step > 0;
@@ -2645,7 +2655,7 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
         if (weight > 0.0) {
             value = settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
         }
-        adopt_switch(&before->switching[kind], switching, own);
+        adopt_switch(&before->switching[kind], switching, own, given->enable[kind]);
         adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
         if (weight > 0.0 && switching->configured) {
             value -= settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);

@@ -74,11 +74,11 @@ COMMANDS = {
     "convert": ["convert", "{lists}", "--kind", "leadscrew", "--to", "lists", "--output", "{out}"],
 }
 
-NOTHING_TO_DO = {("diagnose", "three_axis"), ("convert", "five_axis")}
+NOTHING_TO_DO = {("diagnose", "three_axis"), ("diagnose", "warm_axis"), ("convert", "five_axis")}
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-@pytest.mark.parametrize("model", ["three_axis", "five_axis"])
+@pytest.mark.parametrize("model", ["three_axis", "five_axis", "warm_axis"])
 def test_a_command_opens_each_list_once(
     name: str, model: str, machine: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -97,6 +97,7 @@ def test_a_command_opens_each_list_once(
     ("model", "kind", "measurement", "into", "apart"),
     [
         ("three_axis", ["leadscrew"], "x.csv", "achskw2.lis", set()),
+        ("three_axis", ["backlash"], "x.csv", "achsmd2.lis", set()),
         # What concerns only other axes is not looked at.
         (
             "five_axis",

@@ -7,10 +7,10 @@ from drawn_tables import changed
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from axcomp.convert.formats import FORMATS, Options, recognized, written
+from axcomp.convert.formats import FORMATS, recognized, written
 from axcomp.convert.machines import machine_with, tables_of
-from axcomp.convert.resample import on_equidistant_points
-from axcomp.convert.table import CannotHoldError, CompensationTable, FormatError, beginning_at, largest_difference
+from axcomp.convert.table import CompensationTable, beginning_at, largest_difference, on_equidistant_points
+from axcomp.convert.text import CannotHoldError, FormatError, Options
 from axcomp.kinds import KINDS, Friction, Plane
 from axcomp.model.machine import Axis, Machine
 

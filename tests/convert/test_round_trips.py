@@ -7,9 +7,10 @@ from drawn_tables import HALF_RESOLUTION, changed, tables
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.convert.formats import FORMATS, Options, written
+from axcomp.convert.formats import FORMATS, written
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.table import CompensationTable, largest_difference
+from axcomp.convert.text import Options
 
 HOLDS: dict[str, Callable[[], st.SearchStrategy[CompensationTable]]] = {
     "enc-comp": lambda: tables(even=True, bilateral=False, cross=False),

@@ -10,6 +10,7 @@ from axcomp.convert.linuxcnc import read_linuxcnc, write_linuxcnc
 from axcomp.convert.machines import machine_with, tables_of
 from axcomp.convert.plain_csv import read_csv
 from axcomp.convert.table import CompensationTable
+from axcomp.convert.text import Options
 from axcomp.kinds import Cross, Leadscrew
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.runtime import Runtime
@@ -119,7 +120,7 @@ def test_cec_tables_of_one_pair_add_up_with_their_weights() -> None:
 def test_a_modulo_table_of_sinumerik_follows_its_end_with_its_beginning() -> None:
     points = "\n".join(f"$AA_ENC_COMP[1,{n},C]={0.001 * (n % 4)}" for n in range(5))
     text = f"{points}\n$AA_ENC_COMP_STEP[1,C]=90\n$AA_ENC_COMP_MIN[1,C]=0\n$AA_ENC_COMP_MAX[1,C]=360\n"
-    [table] = read_enc_comp(text + "$AA_ENC_COMP_IS_MODULO[1,C]=1", encoder=1)
+    [table] = read_enc_comp(text + "$AA_ENC_COMP_IS_MODULO[1,C]=1", Options(encoder=1))
     assert (table.period, table.unit) == (360.0, "deg")
     assert np.allclose(table.at([45.0, 405.0, -315.0]), -0.0005)
     assert np.allclose(table.at([315.0, -45.0, 675.0]), -0.0015)
@@ -163,22 +164,23 @@ def test_linuxcnc_adds_the_trim_to_the_commanded_position(comp_type: int) -> Non
     rows = [(-1.0, -1.005, -0.995), (0.0, 0.002, -0.003), (1.0, 1.003, 0.998)]
     trims = [(nominal, nominal - forward, nominal - reverse) for nominal, forward, reverse in rows]
     text = "\n".join(" ".join(f"{value:.6f}" for value in row) for row in (trims if comp_type else rows))
-    table = read_linuxcnc(text, comp_type=comp_type, axis="X")
+    [table] = read_linuxcnc(text, Options(axis="X"), comp_type)
     assert np.allclose(table.at([-1.0, 0.0, 1.0, 5.0], 1), [0.005, -0.002, -0.003, -0.003])
     assert np.allclose(table.at([-5.0, -1.0, 0.0, 1.0], -1), [-0.005, -0.005, 0.003, 0.002])
-    assert read_linuxcnc(write_linuxcnc(table, comp_type=comp_type), comp_type=comp_type, axis="X") == table
+    written = write_linuxcnc([table], Options(), comp_type)
+    assert read_linuxcnc(written, Options(axis="X"), comp_type) == [table]
 
 
 def test_linuxcnc_inches_become_millimetres() -> None:
-    table = read_linuxcnc("0 0 0\n1 1.001 1.001\n", comp_type=0, axis="X", inch=True)
+    [table] = read_linuxcnc("0 0 0\n1 1.001 1.001\n", Options(axis="X", inch=True), 0)
     assert table.positions == (0.0, 25.4)
     assert table.positive.y[1] == pytest.approx(-0.0254)
     assert table.negative is None
 
 
 def test_csv_tells_its_sign_by_the_name_of_the_column() -> None:
-    [added] = read_csv("position,correction\n0,0\n100,0.01\n", axis="X")
-    [wrong] = read_csv("Position;Error_positive;error_negative\n0;0;0,002\n100;-0,01;\n", axis="X")
+    [added] = read_csv("position,correction\n0,0\n100,0.01\n", Options(axis="X"))
+    [wrong] = read_csv("Position;Error_positive;error_negative\n0;0;0,002\n100;-0,01;\n", Options(axis="X"))
     assert added.positive.y == wrong.positive.y == (0.0, 0.01)
     assert wrong.negative is not None
     assert wrong.negative.y == (-0.002, 0.01)

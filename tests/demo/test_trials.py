@@ -68,7 +68,7 @@ def test_the_place_to_be_at_is_the_drives_reference_in_the_coupled_fmus() -> Non
         plant.step([float(put_out), 0.0, 0.0], [0.0, 0.0, 0.0], CYCLE)
         put_out = position  # what the compensation makes of it reaches the plant in the next step
         references.append(plant.drives[0].reference)
-    assert np.allclose(trial.place("X"), references, rtol=0.0, atol=1e-12)
+    assert np.allclose(trial.target("X"), references, rtol=0.0, atol=1e-12)
 
 
 def outcome(kind: str, without: np.ndarray, compensated: np.ndarray) -> Outcome:

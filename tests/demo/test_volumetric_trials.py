@@ -7,9 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from axcomp.demo.evaluation import Record, label, outcomes, table
-from axcomp.demo.trials import TCP, VOLUMETRIC, Trial, trials_of
-from axcomp.demo.volume import volumetric_trials
+from axcomp.demo.evaluation import Trace, label, outcomes, table
+from axcomp.demo.trials import TCP, VOLUMETRIC, Trial, trials_of, volumetric_trials
 from axcomp.lists import read_machine
 from axcomp.model.companions import models
 from axcomp.model.machine import Machine
@@ -72,7 +71,7 @@ def test_the_error_of_the_tip_has_components_and_a_length(machine: Machine, tria
     cycles = len(turn.setpoints["C"].position)
     still = {axis.name: np.full(cycles, 2e-4) for axis in machine.axes}
     tip = np.tile([0.003, -0.004, 0.0], (cycles, 1))
-    found = list(outcomes(machine, [turn], [(Record(still, still, tip), Record(still, still, 0.1 * tip))]))
+    found = list(outcomes(machine, [turn], [(Trace(still, still, tip), Trace(still, still, 0.1 * tip))]))
     assert [result.axis for result in found] == ["TCP x", "TCP y", "TCP z", "TCP"]
     assert [result.largest[0] for result in found] == [pytest.approx(value) for value in (3.0, 4.0, 0.0, 5.0)]
     assert found[3].ratio == pytest.approx(0.1)

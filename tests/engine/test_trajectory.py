@@ -48,6 +48,15 @@ def test_what_is_wrong_in_a_file_is_said_with_its_line(tmp_path: Path, text: str
         read_input(tmp_path / "i.csv")
 
 
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_commas_are_decimal_points_where_they_separate_nothing(tmp_path: Path, separator: str) -> None:
+    (tmp_path / "i.csv").write_text("time;X.setpoint\n0;-1,5\n0,001;2.25\n".replace(";", separator))
+    found = read_input(tmp_path / "i.csv")
+    assert found.columns["X.setpoint"].tolist() == [-1.5, 2.25]
+    assert found.time is not None
+    assert found.time.tolist() == [0.0, 0.001]
+
+
 def test_moves_are_repeated_until_the_end() -> None:
     motion = Motion({"X": 0.0}, [{"X": 10.0}, {"dwell": 0.01}, {"X": 0.0}], limits=Limits(200.0, 3000.0, 1e5))
     once = motion.sampled(DT)["X.setpoint"]

@@ -1,16 +1,19 @@
 """Friction tables made from velocities and currents."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from creating import copied_lists, plant
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.fit.create_friction import FrictionReadings, create_friction, read_friction_readings
-from axcomp.fit.creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options
-from axcomp.fit.target_list import TargetList
+from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options, TargetList, create
+from axcomp.fit.friction import FrictionReadings
 from axcomp.lists import read_machine
 from axcomp.plant.simulated import friction_current
+
+create_friction = partial(create, "friction")
 
 
 def stribeck(v):
@@ -145,5 +148,5 @@ def test_standstill_does_not_count(new_list):
 def test_units_of_velocity_are_read(tmp_path):
     file = tmp_path / "f.csv"
     file.write_text("Torque,velocity [m/min],run\n12.5,-6,3\n")
-    found = read_friction_readings(file)
+    found = FrictionReadings.read(file)
     assert (found.velocities.tolist(), found.currents.tolist(), found.runs.tolist()) == ([-100.0], [12.5], [3])

@@ -1,6 +1,7 @@
 """Plane tables made from measurements over two masters."""
 
 import dataclasses
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,12 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.fit.create_plane import Flatness, create_plane, read_flatness
-from axcomp.fit.creation import LEFT_OUT, PREDICTED, CannotCreateError, Options
-from axcomp.fit.target_list import TargetList
+from axcomp.fit import LEFT_OUT, PREDICTED, CannotCreateError, Options, TargetList, create
+from axcomp.fit.plane import Flatness
 from axcomp.lists import read_machine
 from axcomp.measurement.columns import MeasurementError
 from axcomp.plant.simulated import flatness
+
+create_plane = partial(create, "plane")
 
 
 def over_grid(targets1, targets2, deviations, runs=1, scatter=0.0):
@@ -126,17 +128,17 @@ def test_what_cannot_be_is_refused(tmp_path, new_list):
     file = tmp_path / "p.csv"
     file.write_text("master1,master2,deviation\n0,0,1\n0,1,a\n")
     with pytest.raises(MeasurementError, match=r"p.csv:3: “a” is no number"):
-        read_flatness(file)
+        Flatness.read(file)
 
 
 def test_files_with_and_without_runs_are_read(tmp_path):
     file = tmp_path / "p.csv"
     file.write_text("run;master2 [°];master1;deviation [mm]\n2;10;-5,5;0,001\n")
-    measurement = read_flatness(file)
+    measurement = Flatness.read(file)
     assert (measurement.positions1, measurement.positions2, measurement.runs) == ([-5.5], [10.0], [2])
     assert measurement.deviations == pytest.approx([1.0])
     file.write_text("1 2 3\n")
-    assert read_flatness(file).runs.tolist() == [1]
+    assert Flatness.read(file).runs.tolist() == [1]
 
 
 def test_the_picture_is_a_map(new_list):

@@ -14,9 +14,8 @@ from test_volumetric_identification import PLAIN, X, Y, Z, over, places_of, simu
 
 from axcomp.cli import main
 from axcomp.engine.tcp_model import TcpModel
-from axcomp.fit.create_volumetric import create_volumetric
-from axcomp.fit.creation import LEFT_OUT, MEASURED, PREDICTED
-from axcomp.fit.volumetric_model import TcpDeviations
+from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, Options, create
+from axcomp.fit.volumetric_identification import TcpDeviations
 from axcomp.fit.volumetric_target import VolumetricTarget
 from axcomp.kernel.record import zeros
 from axcomp.kernel.volumetric_errors import errors_at
@@ -54,6 +53,10 @@ PARAMETERS = """\
 P0X P0Y P0Z N0X N0Y N0Z Y0Y
 10 -20 -150 0 0 -1 0.001
 """
+
+
+def create_volumetric(measurement, target, errors=None, nodes_max=None):
+    return create("volumetric", measurement, target, Options(errors=errors, nodes=nodes_max))
 
 
 @pytest.fixture
@@ -104,7 +107,7 @@ def test_description_comments_and_other_errors_of_the_file_stay(folder):
     measurement = simulated(places_of(X, Y, Z), TRUE)
     before = (folder / "vol_comp1.lis").read_bytes()
     creation = create_volumetric(measurement, VolumetricTarget(folder / "vol_comp1.lis"), ["EXX"])
-    assert creation.list_data is None
+    assert [path.name for path in creation.files] == ["errors.csv"]
     creation.write()
     text = (folder / "errors.csv").read_text()
     assert text.startswith("// tracker, spring\n")

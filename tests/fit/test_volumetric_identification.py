@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from axcomp.engine.tcp_model import TcpModel
-from axcomp.fit.creation import CannotCreateError
+from axcomp.fit import CannotCreateError
 from axcomp.fit.volumetric_basis import Sought, sought_errors
-from axcomp.fit.volumetric_identification import Identifier, identify
-from axcomp.fit.volumetric_model import TcpDeviations, read_tcp_deviations
+from axcomp.fit.volumetric_identification import Identifier, TcpDeviations
 from axcomp.measurement.columns import MeasurementError
 from axcomp.model.volumetric import ErrorTable, Volumetric, is_angle
 
@@ -17,6 +16,10 @@ AXES = (("X", 1), ("Y", 2), ("Z", 3))
 TOOL = (10.0, -20.0, -150.0)
 PLAIN = Volumetric(0, AXES, "YXZ", tool_position=TOOL, tool_orientation=(0.0, 0.0, -1.0))
 X, Y, Z = np.linspace(-400.0, 400.0, 5), np.linspace(-300.0, 300.0, 4), np.linspace(-200.0, 0.0, 4)
+
+
+def identify(*arguments, **options):
+    return Identifier(*arguments, **options).fit()
 
 
 def places_of(*axes, tools=(0.0, 120.0), runs=1):
@@ -220,13 +223,13 @@ def test_what_cannot_be_is_refused(tmp_path):
     file = tmp_path / "t.csv"
     file.write_text("x,y,z,dx,dy\n1,2,3,4,5\n")
     with pytest.raises(MeasurementError, match=r"t.csv:1: There is no column for dz."):
-        read_tcp_deviations(file)
+        TcpDeviations.read(file)
 
 
 def test_files_are_read_with_their_units(tmp_path):
     file = tmp_path / "t.csv"
     file.write_text("c [°],x [m],y,z,dx [mm],dy,dz,tool_length,run\n90,0.5,2,3,0.001,2,3,100,4\n")
-    found = read_tcp_deviations(file)
+    found = TcpDeviations.read(file)
     assert found.positions.tolist() == [[500.0, 2.0, 3.0, 0.0, 0.0, 90.0]]
     assert found.deviations.tolist() == [[1.0, 2.0, 3.0]]
     assert (found.tool_lengths.tolist(), found.runs.tolist(), found.given) == ([100.0], [4], "XYZC")

@@ -198,7 +198,9 @@ def reload_lists(fmu: Path, good: Path, bad: Path) -> tuple[list[Any], list[str]
         values = []
         for path in (good, bad):
             host.step({"X.setpoint": 30.0, "reload": False, "update_path": str(path)})
-            outputs = host.step({"reload": True})
+            host.step({"reload": True})
+            for _ in range(3):  # the new values come in over the 4 backlash cycles of X
+                outputs = host.step({})
             values.append((outputs["X.leadscrew.correction"], outputs["X.error"]))
         return values, [message for status, _, message in host.messages if status == ERROR]
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from axcomp.fmu.package import PACKAGE
 from axcomp.fmu.sources import needed_files, renamed_sources
+from axcomp.kinds import KINDS
 from axcomp.model.companions import fmu_sources
 
 SLAVE = fmu_sources() / "axcomp_slave.py"
@@ -56,6 +57,29 @@ def test_what_is_imported_anywhere_comes_along_and_nothing_else(tmp_path: Path) 
         "pack/late.py",
         "pack/single.py",
     ]
+
+
+def test_modules_that_are_imported_by_a_name_made_while_it_runs_all_come_along(tmp_path: Path) -> None:
+    folder = written(
+        tmp_path,
+        slave="from pack.a.b import x\n",
+        pack__a__b='from importlib import import_module\nx = [import_module(f".{n}", __package__) for n in "cd"]\n',
+        pack__a__c="from ..far import y\n",
+        pack__a__d="",
+        pack__far="",
+        pack__unused="",
+    )
+    (folder / "pack" / "__init__.py").touch()
+    (folder / "pack" / "a" / "__init__.py").touch()
+    found = [
+        path.relative_to(folder / "pack").as_posix() for path in needed_files(folder / "slave.py", folder / "pack")
+    ]
+    assert found == ["__init__.py", "a/__init__.py", "a/b.py", "a/c.py", "a/d.py", "far.py"]
+
+
+def test_the_slave_has_a_module_of_every_kind_of_compensation() -> None:
+    names = {path.relative_to(PACKAGE).as_posix() for path in needed_files(SLAVE, PACKAGE)}
+    assert {f"{room}/{name}.py" for room in ("kinds", "kernel") for name in KINDS} <= names
 
 
 def test_names_change_with_every_byte_of_the_sources(tmp_path: Path) -> None:

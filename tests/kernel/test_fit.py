@@ -16,8 +16,7 @@ from axcomp.kernel.cycle import cycle
 from axcomp.kernel.fit import tables_fit
 from axcomp.kernel.record import Vec, fields_of, zero
 from axcomp.kernel.records import Outputs, State, Tables
-from axcomp.kinds.backlash import Backlash
-from axcomp.kinds.temperature import Temperature
+from axcomp.kinds import Backlash, Temperature
 from axcomp.lists import read_machine
 from axcomp.model.machine import Axis, Machine
 from axcomp.runtime.compile import Compiled, compile_tables

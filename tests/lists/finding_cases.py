@@ -134,6 +134,7 @@ CASES = [
     one("AXC-STRING", f"kopf.log_achs_name X # axis\n{LEADSCREW}", 1, "kopf.log_achs_name", "leadscrew"),
     # Entries
     one("AXC-UNKNOWN", f"{LEADSCREW}kw.ssfk.colour 3\n", 8, "kw.ssfk.colour", "leadscrew"),
+    one("AXC-OTHERS", f"kopf.mds_ident 5\n{LEADSCREW}", 0, "", "leadscrew"),
     one("AXC-TYPO", LEADSCREW.replace("interval", "intervall"), 3, "kw.ssfk.intervall", "leadscrew"),
     one("AXC-TWICE", f"{LEADSCREW}KW.SSFK.table[2].pos 4\n", 8, "KW.SSFK.table[2].pos", "leadscrew"),
     one(
@@ -143,7 +144,12 @@ CASES = [
         "kw.crosstalk.table[5].correction",
         "leadscrew",
     ),
-    one("AXC-VALUE", LEADSCREW.replace("pos 2", "pos two"), 6, "kw.ssfk.table[1].pos", "leadscrew"),
+    one("AXC-ZEROED", LEADSCREW.replace("pos 2", "pos 2;"), 6, "kw.ssfk.table[1].pos", "leadscrew"),
+    one("AXC-ZEROED", LEADSCREW.replace("pos 2", "pos 2147483648"), 6, "kw.ssfk.table[1].pos", "leadscrew"),
+    one("AXC-ZEROED", f"{LEADSCREW}kw.ssfk.kw_startpos 10;\n", 8, "kw.ssfk.kw_startpos", "leadscrew"),
+    one("AXC-ZEROED", CROSS.replace("last_index 1", "last_index 1;"), 3, "kw.crosscomp.last_index", "cross"),
+    Case("AXC-ZEROED", {"hochlauf.lis": "zahl_kw 33\nachs_kw[0] a.lis\n", "a.lis": LEADSCREW}, 1, "zahl_kw", None),
+    Case("AXC-ZEROED", {"hochlauf.lis": "zahl_kw 1;\nachs_kw[0] a.lis\n", "a.lis": LEADSCREW}, 1, "zahl_kw", None),
     one("AXC-VALUE", f"kw.ssfk.bilateral 2\n{LEADSCREW}", 1, "kw.ssfk.bilateral", "leadscrew"),
     one("AXC-VALUE", f"kw.ssfk.bilateral\n{LEADSCREW}", 1, "kw.ssfk.bilateral", "leadscrew"),
     one("AXC-VALUE", f"kw.crosscomp.n_cycles 1.5\n{CROSS}", 1, "kw.crosscomp.n_cycles", "cross"),
@@ -236,6 +242,21 @@ CASES = [
         {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, "getriebe[0].wegaufz 0\n")},
         2,
         "getriebe[0].wegaufz",
+    ),
+    machine(
+        "110472",
+        {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, "getriebe[0].feed_const_denom 0\n")},
+        2,
+        "getriebe[0].feed_const_denom",
+    ),
+    machine(
+        "AXC-RESOLUTION",
+        {
+            "hochlauf.lis": start_up(axes=MDS),
+            "achsmd1.lis": axis_list(1, "getriebe[0].incr_per_rev 0\ngetriebe[0].feed_const_num 100\n"),
+        },
+        2,
+        "getriebe[0].incr_per_rev",
     ),
     machine(
         "110052",
@@ -430,6 +451,7 @@ CASES = [
         5,
         "kw.crosscomp2.master2_ax_nr",
     ),
+    one("AXC-SLAVE", CROSS.replace("master_ax_nr", "slave_ax_nr"), 4, "kw.crosscomp.slave_ax_nr", "cross"),
     one("70245", CROSS.replace("setpoint 1000", "setpoint 0"), 7, "kw.crosscomp.table[1].setpoint"),
     one("70245", CROSS.replace("last_index 1", "last_index 2"), 7, "kw.crosscomp.table[2].setpoint"),
     machine(

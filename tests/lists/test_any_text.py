@@ -55,7 +55,8 @@ def read_files(files: dict[str, bytes]) -> Reading:
 
 @given(st.binary(max_size=300))
 def test_any_bytes_are_read(data: bytes) -> None:
-    check(read_files({"achskw1.lis": data}))
+    for mark in (b"", b"\xff\xfe", b"\xfe\xff"):
+        check(read_files({"achskw1.lis": mark + data}))
     check(read_files({"hochlauf.lis": data}))
 
 

@@ -20,9 +20,10 @@ def test_every_compensation_parameter_of_both_manuals_is_there_once() -> None:
 
 
 def test_the_axis_and_start_up_parameters_are_there() -> None:
-    numbers = (15, 16, 18, 21, 47, 70, 103, 126, 127, 174, 175, 233, 234, 243, *range(271, 276), 522, 525, 526, 789)
+    numbers = (15, 16, 18, 21, 47, 70, 92, 103, 126, 127, 174, 175, 233, 234, 243, *range(271, 276), 362, 363)
+    numbers += (511, 512, 522, 525, 526, 789)
     assert ids(Manual.AXIS, ListKind.AXIS) == [f"P-AXIS-{i:05}" for i in numbers]
-    assert ids(Manual.START_UP, ListKind.START_UP) == [f"P-STUP-{i:05}" for i in (16, 17, 35, 36, 100, 101)]
+    assert ids(Manual.START_UP, ListKind.START_UP) == [f"P-STUP-{i:05}" for i in (14, 15, 16, 17, 35, 36, 100, 101)]
 
 
 @pytest.mark.parametrize(

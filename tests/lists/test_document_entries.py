@@ -42,16 +42,51 @@ def test_entries_know_where_they_stand() -> None:
     assert [entry.parameter is None for entry in document().entries] == [False, False, False, True]
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1"])
-def test_encoding_and_line_ends_are_kept(encoding: str) -> None:
-    text = "# Maß\r\nkopf.achs_nr 1\nkopf.log_achs_name X\rkw.ssfk.interval 5"
+@pytest.mark.parametrize(
+    ("encoding", "mark"),
+    [("utf-8", ""), ("utf-8", "\ufeff"), ("utf-16-le", "\ufeff"), ("utf-16-be", "\ufeff"), ("latin-1", "")],
+)
+def test_encoding_and_line_ends_are_kept(encoding: str, mark: str) -> None:
+    text = mark + "# Maß\r\nkopf.achs_nr 1\nkopf.log_achs_name X\rkw.ssfk.interval 5"
     one = document(text, encoding)
     one.set("kopf.log_achs_name", "Ä")
     one.set("kw.ssfk.interval", 6)
     wanted = text.replace("name X", "name Ä").replace("interval 5", "interval 6").encode(encoding)
     assert one.changed
     assert one.to_bytes() == wanted
-    assert (one.encoding, one.newline) == ((encoding.removesuffix("-sig"), encoding.endswith("-sig")), "\r\n")
+    assert (one.encoding, one.newline) == ((encoding, bool(mark)), "\r\n")
+
+
+COMMENTED = """\
+kw.ssfk.kw_nr_max 2 /* as many
+as there are */
+kw.ssfk.table[0].pos 1 /* first
+End
+kw.ssfk.table[0].pos 7 */
+kw.ssfk.table[1].pos 2 /* second
+and last */
+"""
+
+
+def test_nothing_is_put_into_a_comment_or_left_of_one() -> None:
+    one = document(COMMENTED)
+    one.set("kw.ssfk.table[i].neg", 5, 0)
+    one.set("kw.ssfk.table[i].neg", 6, 1)
+    one.set("kopf.achs_nr", 1)
+    one.set("kw.ssfk.kw_nr_max", 3)
+    added = [f"{name:<40} {value}" for name, value in (("kw.ssfk.table[0].neg", 5), ("kw.ssfk.table[1].neg", 6))]
+    lines = COMMENTED.replace("max 2", "max 3").split("\n")
+    assert one.text.split("\n") == [*lines[:5], added[0], *lines[5:7], added[1], f"{'kopf.achs_nr':<40} 1", ""]
+    one.remove("kw.ssfk.table[i].pos", 0)
+    assert one.text.split("\n")[2:5] == [added[0], *lines[5:7]]
+    one.replace_entries(["kw.ssfk.table[1].pos 9"], ["kw.ssfk.table[i].pos"], "Table", keep_row_comments=False)
+    assert one.text.split("\n")[3:5] == ["kw.ssfk.table[1].pos 9", added[1]]
+
+
+def test_joined_bits_are_replaced_together() -> None:
+    one = Document("md.lis", b"kenngr.achs_mode ACHSMODE_MODULO | 0x800 (turntable)\n", ListKind.AXIS)
+    one.set("kenngr.achs_mode", 1)
+    assert one.text.split() == ["kenngr.achs_mode", "1", "(turntable)"]
 
 
 @pytest.mark.parametrize(
@@ -119,7 +154,7 @@ NAMES = st.sampled_from(ROWS).flatmap(
 )
 BLANKS = st.sampled_from(["", " ", "\t "])
 VALUES = st.sampled_from(["", "5", "-0.5", "x", '"a b"', "a/*b*/", "7(c)"])
-COMMENTS = st.sampled_from(["", " ", " # why", " (why ß)", "\t/* why */ "])
+COMMENTS = st.sampled_from(["", " ", " # why", " (why ß)", "\t/* why */ ", " /* why"])
 
 
 @st.composite
@@ -306,9 +341,9 @@ def test_only_what_was_changed_is_parsed_again(folder: Path, monkeypatch: pytest
     again = reading.again()
     assert parsed == ["kw.lis"]
     assert again.machine.axes[0].leadscrew.positive == (1e-4, 2e-3)
-    assert {f.code for f in reading.findings} - {f.code for f in again.findings} == {"AXC-VALUE"}
+    assert {f.code for f in reading.findings} - {f.code for f in again.findings} == {"AXC-ZEROED"}
 
 
 def test_findings_know_the_column_of_their_entry(folder: Path) -> None:
     found = {(f.code, f.line): f.column for f in read_machine(folder).findings}
-    assert found == {("AXC-PATH", 2): 1, ("AXC-PATH", 4): 1, ("AXC-MISSING", 5): 1, ("AXC-VALUE", 6): 3}
+    assert found == {("AXC-PATH", 2): 1, ("AXC-PATH", 4): 1, ("AXC-MISSING", 5): 1, ("AXC-ZEROED", 6): 3}

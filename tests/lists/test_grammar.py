@@ -36,6 +36,7 @@ def only(text: str) -> Entry:
         ("a -1.5e3x", "a", "-1.5e3x"),
         ("a 12/* glued", "a", "12/*"),
         ("a", "a", ""),
+        ("a /* no value */", "a", ""),
         ("End 5", "End", "5"),
         ("a\u00a01", "a", "1"),
     ],
@@ -62,6 +63,51 @@ def test_what_is_no_entry_is_reported(line: str) -> None:
     assert read(f"{line}\nb 2") == ([("b", "2")], [("AXC-SYNTAX", 1)])
 
 
+@pytest.mark.parametrize(
+    "comment",
+    [
+        "/* one line */",
+        "  /* two\n lines */  ",
+        "/*\nb 3\nEnd\n# */",
+        "c 4 /* after a value\n b 3 */",
+        "c 1.5   /*\n\n*/",
+        "c[ 0].d 4 /* after a value */",
+        "c /* instead of a value\n b 3 */",
+        "c TEXT /* after a value\n b 3 */",
+        "c A | B /* after a value\n b 3 */",
+    ],
+)
+def test_comments_go_over_several_lines(comment: str) -> None:
+    found, reports = read(f"a 1\n{comment}\nb 2")
+    assert [(name, word) for name, word in found if name[0] in "ab"] == [("a", "1"), ("b", "2")]
+    assert [name[0] for name, _ in found] == ["a", *"c"[: comment.startswith("c")], "b"]
+    assert reports == []
+
+
+@pytest.mark.parametrize(
+    ("text", "names", "reports"),
+    [
+        # A comment after a value need not be closed: the next line begins another one.
+        ("a 1 /* open\nb 2 /* closed */\nc 3", "abc", []),
+        ("a 1 /* open\nb 2", "ab", []),
+        ("/* open\nb 2", "b", [1]),
+        ("# /* no opening\nb 2\n# */", "b", []),
+        ('a "/* a string\nb 2\n# */', "ab", []),
+        ("a 1 ( /* within\nb 2\n# */", "ab", []),
+        ("a 1 # /* within\nb 2\n# */", "ab", []),
+        # What stands behind the end of a comment is not taken, and is told.
+        ("/* open\n*/ b 2", "", [2]),
+        ("/* a */ b 2", "", [1]),
+        ("a 1 /* open */ /*\nb 2", "ab", []),
+        ("/* a\n*/\n/* b\n*/\nc 3", "c", []),
+        ("a 1 /* x\ny */ /* z\nb 2 */", "ab", [2]),
+    ],
+)
+def test_no_entry_is_lost_in_a_comment_that_is_none(text: str, names: str, reports: list[int]) -> None:
+    found, reported = read(text)
+    assert ("".join(name for name, _ in found), reported) == (names, [("AXC-SYNTAX", line) for line in reports])
+
+
 @pytest.mark.parametrize("end", ["End", "END", "end  ", " End"])
 def test_end_ends_the_list(end: str) -> None:
     assert read(f"a 1\n{end}\n\n") == ([("a", "1")], [])
@@ -74,16 +120,29 @@ def test_end_ends_the_list(end: str) -> None:
         ("ä ″ °".encode(), "ä ″ °"),
         ("\ufeffä".encode(), "ä"),
         ("ä °".encode("latin-1"), "ä °"),
+        ("\ufeffä °\r\n".encode("utf-16-le"), "ä °\n"),
+        ("\ufeffä °\r\n".encode("utf-16-be"), "ä °\n"),
         (b"a 1\r\nb 2\rc 3\n", "a 1\nb 2\nc 3\n"),
         (b"a 1\n\x1a", "a 1\n"),
         (b"", ""),
     ],
 )
-def test_text_is_utf8_or_latin1_with_any_line_ends(data: bytes, text: str) -> None:
+def test_text_is_utf16_with_its_mark_utf8_or_latin1_with_any_line_ends(data: bytes, text: str) -> None:
     assert decode(data) == text
 
 
-@pytest.mark.parametrize("data", [b"a\0b", "a 1".encode("utf-16"), bytes(range(32)) * 3, b"\x7fELF\x02\x01\x01\0"])
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"a\0b",
+        "a 1".encode("utf-16-le"),
+        b"\xff\xfea",
+        b"\xff\xfe\x00\xd8a\x00",
+        "\ufeffa\0".encode("utf-16-be"),
+        bytes(range(32)) * 3,
+        b"\x7fELF\x02\x01\x01\0",
+    ],
+)
 def test_what_is_no_text_is_refused(data: bytes) -> None:
     assert decode(data) is None
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from axcomp.kinds.parameter import Quantity
-from axcomp.kinds.units import Gear, convert, equidistant, in_list
+from axcomp.kinds.units import METRIC, Gear, convert, equidistant, in_list
 from axcomp.lists import Reading
 
 ReadLists = Callable[..., Reading]
@@ -18,7 +18,7 @@ DECIMALS = st.decimals(allow_nan=False, allow_infinity=False, min_value=-(2**63)
 GEARS = st.builds(Gear, st.integers(1, 2**32 - 1), st.integers(1, 2**32 - 1))
 
 
-@given(st.integers(-(2**63), 2**63) | DECIMALS, st.sampled_from((1, 1000, 10_000)), st.just(Gear()) | GEARS)
+@given(st.integers(-(2**63), 2**63) | DECIMALS, st.sampled_from((1, 1000, 10_000)), st.just(METRIC) | GEARS)
 def test_conversion_rounds_once(value: int | Decimal, divisor: int, gear: Gear) -> None:
     exact = Fraction(value) * gear.numerator / gear.denominator / divisor
     assert convert(value, divisor, gear) == float(exact)
@@ -110,6 +110,107 @@ def test_increments_are_01_um_where_the_axis_counts_so(read_lists: ReadLists) ->
     assert leadscrew is not None
     assert leadscrew.positions == (0.3, 0.31)
     assert "AXC-UNIT" not in [f.code for f in reading.findings]
+
+
+INCREMENTS = 2**20
+"""Per revolution of the motor."""
+MOTOR = {"incr_per_rev": INCREMENTS, "gear_fact_num": 2, "gear_fact_denom": 1, "feed_const_num": 200_000}
+"""The vendor's example: a gear of 2, 20 mm per turn of the load."""
+MOTOR_OF_SCREW = {**MOTOR, "gear_fact_num": 3, "gear_fact_denom": 7, "feed_const_denom": 13}
+
+
+def scaled(gear: dict[str, int], step: int = 0) -> str:
+    """Return the entries of a gear step."""
+    return "".join(f"getriebe[{step}].{name} {value}\n" for name, value in gear.items())
+
+
+def one_axis(gear: str, table: str) -> dict[str, str]:
+    axis = f"kopf.achs_nr 1\nlr_param.ssfk 1\n{gear}"
+    return {"achskw1.lis": f"kopf.achs_nr 1\n{table}", "achsmd1.lis": axis}
+
+
+def table_at(position: int, unit: str = "kw.ssfk.unit 0\n") -> str:
+    return f"{unit}kw.ssfk.kw_nr_max 1\nkw.ssfk.table[0].setpoint {position}\nkw.ssfk.table[0].pos {position}\n"
+
+
+@pytest.mark.parametrize(
+    ("gear", "path_of_an_increment"),
+    [
+        # R = increments · gear / feed constant, in increments per 0.1 µm; an increment is 1/R of 0.1 µm.
+        (MOTOR, Fraction(200_000, INCREMENTS * 2)),
+        (MOTOR_OF_SCREW, Fraction(200_000, 13) / (INCREMENTS * Fraction(3, 7))),
+        ({"feed_const_num": 100_000}, Fraction(100_000, 1024)),
+        ({"feed_const_denom": 4}, Fraction(1, 4 * 1024)),
+        # An older build has no entries for the gear but those of the path resolution.
+        (
+            {"incr_per_rev": 4096, "feed_const_num": 50_000, "wegaufz": 5, "wegaufn": 3},
+            Fraction(50_000) / (4096 * Fraction(5, 3)),
+        ),
+        # Without a feed constant the path resolution alone counts.
+        ({"incr_per_rev": 4096, "gear_fact_num": 2, "wegaufz": 5, "wegaufn": 3}, Fraction(3, 5)),
+        ({"incr_per_rev": 4096, "gear_fact_num": 2}, Fraction(1)),
+        ({"incr_per_rev": 0, "wegaufz": 5}, Fraction(1, 5)),
+    ],
+)
+def test_increments_are_scaled_by_motor_gear_and_feed_constant(
+    gear: dict[str, int], path_of_an_increment: Fraction, read_lists: ReadLists
+) -> None:
+    reading = read_lists(one_axis(scaled(gear) + scaled({"feed_const_num": 9}, step=1), table_at(INCREMENTS)))
+    leadscrew = reading.machine.axes[0].leadscrew
+    assert leadscrew is not None
+    expected = float(INCREMENTS * path_of_an_increment / 10_000)
+    assert (leadscrew.positions, leadscrew.positive) == ((expected,), (expected,))
+    assert [finding.code for finding in reading.findings] == []
+
+
+def test_the_vendors_revolution_of_the_motor_is_10_mm(read_lists: ReadLists) -> None:
+    leadscrew = read_lists(one_axis(scaled(MOTOR), table_at(1_048_576))).machine.axes[0].leadscrew
+    assert leadscrew is not None
+    assert leadscrew.positions == (10.0,)
+
+
+def test_the_resolution_of_the_default_axis_list_holds_for_every_axis(read_lists: ReadLists) -> None:
+    files = {
+        "hochlauf.lis": "default_achs_mds all.lis\nzahl_kw 1\nachs_kw[0] kw.lis\n",
+        "all.lis": f"lr_param.ssfk 1\n{scaled(MOTOR)}getriebe[0].wegaufz 1\n",
+        "kw.lis": f"kopf.achs_nr 1\n{table_at(1_048_576)}",
+    }
+    reading = read_lists(files)
+    leadscrew = reading.machine.axes[0].leadscrew
+    assert leadscrew is not None
+    assert (leadscrew.positions, reading.findings) == ((10.0,), ())
+
+
+def test_a_table_without_unit_is_warned_of_on_an_axis_with_a_feed_constant(read_lists: ReadLists) -> None:
+    findings = read_lists(one_axis(scaled(MOTOR), table_at(1_048_576, unit=""))).findings
+    assert [finding.code for finding in findings] == ["AXC-UNIT"]
+
+
+def test_a_path_resolution_that_the_gear_makes_void_is_named(read_lists: ReadLists) -> None:
+    [finding] = read_lists(one_axis(scaled({**MOTOR, "wegaufz": 3}), table_at(1_048_576))).findings
+    assert (finding.code, finding.line, finding.parameter) == ("AXC-UNUSED", 7, "getriebe[0].wegaufz")
+
+
+@pytest.mark.parametrize(
+    ("zero", "code", "increments_per_01_um"),
+    [
+        ("incr_per_rev", "AXC-RESOLUTION", Fraction(1024 * 3, 200_000)),
+        ("gear_fact_num", "AXC-RANGE", Fraction(4096, 200_000)),
+        ("gear_fact_denom", "AXC-RANGE", Fraction(4096 * 3, 200_000)),
+        ("feed_const_denom", "110472", Fraction(4096 * 3, 200_000)),
+        # No feed constant is left: the path resolution counts, which is 1.
+        ("feed_const_num", "AXC-RANGE", Fraction(1)),
+    ],
+)
+def test_a_0_in_the_resolution_is_its_default_with_a_finding(
+    zero: str, code: str, increments_per_01_um: Fraction, read_lists: ReadLists
+) -> None:
+    gear = {"incr_per_rev": 4096, "gear_fact_num": 3, "feed_const_num": 200_000}
+    reading = read_lists(one_axis(scaled({**gear, zero: 0}), table_at(INCREMENTS)))
+    leadscrew = reading.machine.axes[0].leadscrew
+    assert leadscrew is not None
+    assert leadscrew.positions == (float(INCREMENTS / increments_per_01_um / 10_000),)
+    assert [(finding.code, finding.parameter) for finding in reading.findings] == [(code, f"getriebe[0].{zero}")]
 
 
 def test_decimals_are_kept_exactly(read_lists: ReadLists) -> None:

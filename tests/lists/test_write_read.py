@@ -26,7 +26,7 @@ def test_written_lists_read_back_to_the_same_machine_without_complaint(machine: 
 
 
 SHORTFALLS = {"AXC-OUTSIDE", "AXC-AT-REST", "AXC-MASTER-SELF", "AXC-MODULO-SEAM", "AXC-TESTS-FEW"}
-SHORTFALLS |= {"AXC-SCALING", "AXC-LOOKAHEAD", "AXC-ADAPTATION"}
+SHORTFALLS |= {"AXC-SCALING", "AXC-LOOKAHEAD", "AXC-ADAPTATION", "AXC-BACKLASH"}
 """What a machine may be and a list should not: long delays, friction at standstill, a step at the modulo seam …"""
 
 

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from axcomp.measurement.columns import MeasurementError
-from axcomp.measurement.positioning import joined, read_positioning
+from axcomp.measurement.positioning import read_positioning
+from axcomp.measurement.readings import joined
 
 RTL = """\
 HEADER::

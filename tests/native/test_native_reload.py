@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 import zlib
 from collections.abc import Callable
@@ -28,11 +29,15 @@ def image(machine: Machine, folder: Path) -> Path:
     return write_image(folder / "lists", folder / "new image ü.bin").path
 
 
+BLEND = 4
+"""Backlash cycles of X, over which new values of its leadscrew come in."""
+
+
 def reloaded(fmu: Path, path: str) -> tuple[list[float], list[int], list[str]]:
     """Correction of X before and after the update, errors of all axes after it, and what the log says."""
     with Host(fmu) as host:
         before = host.step({"X.setpoint": 30.0, "update_path": path})
-        after = host.step({"reload": True})
+        after = [host.step({"reload": True}), *(host.step({}) for _ in range(BLEND - 1))][-1]
         corrections = [outputs["X.leadscrew.correction"] for outputs in (before, after)]
         errors = [after[f"{axis}.error"] for axis in ("X", "Y_ACHSE", "C")]
         return corrections, errors, [text for *_, text in host.messages]
@@ -42,6 +47,19 @@ def test_a_good_image_acts(native_fmu: Path, tmp_path: Path) -> None:
     path = image(three_axes(3.0), tmp_path)
     assert in_child(reloaded, native_fmu, str(path)) == ([-0.03, -0.09], [0, 0, 0], [])
     assert in_child(reloaded, native_fmu, path.as_uri()) == ([-0.03, -0.09], [0, 0, 0], [])
+
+
+def test_new_values_come_in_over_the_backlash_cycles(native_fmu: Path, tmp_path: Path) -> None:
+    path = image(three_axes(3.0), tmp_path)
+    rest = [math.sin(math.pi / 8 * step) ** 2 for step in (3, 2, 1, 0)]
+    assert in_child(coming_in, native_fmu, str(path)) == pytest.approx([-0.09 + 0.06 * w for w in rest], abs=1e-15)
+
+
+def coming_in(fmu: Path, path: str) -> list[float]:
+    with Host(fmu) as host:
+        host.step({"X.setpoint": 30.0, "update_path": path})
+        outputs = [host.step({"reload": True}), *(host.step({}) for _ in range(BLEND - 1))]
+        return [row["X.leadscrew.correction"] for row in outputs]
 
 
 def on_the_move(fmu: Path, path: Path, rows: list[dict[str, Any]], at: int) -> list[dict[str, Any]]:
@@ -168,10 +186,11 @@ def own_again(fmu: Path, new: Path) -> list[float]:
     """Update, and go back with an empty path."""
     with Host(fmu) as host:
         host.step({"X.setpoint": 30.0, "update_path": str(new)})
-        values = [host.step({"reload": True})["X.leadscrew.correction"]]
+        host.step({"reload": True})
+        values = [host.step({})["X.leadscrew.correction"] for _ in range(BLEND)]
         host.step({"reload": False, "update_path": ""})
-        values.append(host.step({"reload": True})["X.leadscrew.correction"])
-        return values
+        host.step({"reload": True})
+        return values[-1:] + [host.step({})["X.leadscrew.correction"] for _ in range(BLEND)][-1:]
 
 
 def test_an_empty_path_takes_the_fmus_own_image_again(native_fmu: Path, tmp_path: Path) -> None:

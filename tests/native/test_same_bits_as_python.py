@@ -64,6 +64,13 @@ def move(given: AxisInputs, source: random.Random) -> None:
             setattr(given, name, (name == "referenced") != (source.random() < 0.003))
         elif hint is bool and source.random() < 0.05:
             setattr(given, name, not getattr(given, name))
+    given.enable[:] = [enable != (source.random() < 0.05) for enable in given.enable]
+    if source.random() < 0.05:
+        temperature, friction = given.compensation.temperature, given.compensation.friction
+        temperature.offset = source.choice([source.uniform(-0.1, 0.1), float("nan"), float("inf")])
+        temperature.coefficient = source.uniform(-1e-3, 1e-3)
+        friction.ahead_known = source.random() < 0.5
+        friction.velocity_ahead[:] = source.choices([given.velocity, -given.velocity, 0.0, float("nan")], k=4)
     if source.random() < 0.002:
         given.acceleration = source.choice([float("nan"), float("inf"), 1e300])
 
@@ -74,8 +81,8 @@ def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[f
     Returns all the corrections.
     """
     tables, pool = compile_tables(machine)
+    numbers = (ctypes.c_double * (len(pool) + 1))(*pool)
     state, outputs = zero(State), zero(Outputs)
-    numbers = (ctypes.c_double * max(1, len(pool)))(*pool)
     inputs = initial_inputs(tables)
     for record in (state, outputs):
         del record.axis[tables.axis_count :], record.volumetric[tables.volumetrics :]
@@ -88,6 +95,7 @@ def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[f
     source = random.Random(seed)
     for _ in range(cycles):
         inputs.reset, inputs.program_end = source.random() < 0.02, source.random() < 0.02
+        inputs.derive_motion = inputs.derive_motion != (source.random() < 0.02)
         inputs.tool_length = source.choice([inputs.tool_length, 80.0])
         for axis in inputs.axis:
             move(axis, source)

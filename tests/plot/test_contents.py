@@ -20,7 +20,6 @@ from axcomp.plot.contents import contents_of
 from axcomp.plot.curves import Curves
 from axcomp.plot.field import Field
 from axcomp.plot.maps import Map
-from axcomp.plot.volume import volumetric_contents
 from axcomp.runtime.runtime import Runtime
 
 
@@ -125,7 +124,7 @@ def test_crosstalk_over_two_axes_is_shown_as_scipy_interpolates_its_tests() -> N
 
 
 def test_the_errors_of_a_measured_machine_are_shown_axis_by_axis() -> None:
-    found = {content.subject.part: content for content in volumetric_contents(MEASURED)}
+    found = {content.subject.part: content for content in contents_of(MEASURED, kind="volumetric")}
     assert list(found) == [
         "linear errors of X",
         "angular errors of X",
@@ -150,7 +149,7 @@ def test_the_errors_of_a_measured_machine_are_shown_axis_by_axis() -> None:
 
 
 def test_errors_of_one_axis_only_on_request() -> None:
-    assert [content.subject.part for content in volumetric_contents(MEASURED, "Z")] == ["linear errors of Z"]
+    assert [content.subject.part for content in contents_of(MEASURED, "Z", "volumetric")] == ["linear errors of Z"]
 
 
 def test_the_tcp_error_is_that_of_the_first_order_formula() -> None:
@@ -170,9 +169,9 @@ def test_the_tcp_error_is_that_of_the_first_order_formula() -> None:
 
 
 def test_the_field_covers_the_work_volume_that_was_measured() -> None:
-    field = volumetric_contents(MEASURED)[-1]
+    field = contents_of(MEASURED, kind="volumetric")[-1]
     assert isinstance(field, Field)
-    assert np.ptp(field.places, axis=0).tolist() == [200.0, 100.0, 200.0]
+    assert np.ptp(field.positions, axis=0).tolist() == [200.0, 100.0, 200.0]
     size = np.array(field.records().rows)
     assert np.allclose(size[:, 6], np.linalg.norm(size[:, 3:6], axis=1))
 
@@ -183,7 +182,7 @@ def test_a_table_with_its_axis_displaced_swings_once_a_turn() -> None:
     errors = (table("EXC", "C", [0.0, 360.0], [0.01, 0.01]), table("EXX", "X", [0.0, 400.0], [0.0, 0.0]))
     turning = Volumetric(1, axes, "CXYZ", 1, errors)
     machine = Machine(tuple(Axis(number, letter) for letter, number in axes), (turning,))
-    curves = volumetric_contents(machine)[-1]
+    curves = contents_of(machine, kind="volumetric")[-1]
     assert isinstance(curves, Curves)
     assert curves.subject.part == "TCP error over C"
     assert curves.note == "X = 200, Y = 0, Z = 0"
@@ -201,7 +200,7 @@ def test_a_field_without_errors_is_drawn_without_arrows() -> None:
 
 
 def test_a_machine_does_not_differ_from_itself() -> None:
-    for content in (*contents_of(MACHINE), *volumetric_contents(MEASURED)):
+    for content in (*contents_of(MACHINE), *contents_of(MEASURED, kind="volumetric")):
         rows = content.against(content).records().rows
         skipped = 1 if isinstance(content, (Curves, Bars)) else 3 if isinstance(content, Field) else 2
         assert np.allclose([[float(cell) for cell in row[skipped:]] for row in rows], 0.0)
@@ -225,7 +224,7 @@ def test_a_difference_is_taken_at_the_points_of_both_machines() -> None:
 
 def test_an_error_that_the_other_machine_lacks_is_zero_there() -> None:
     fewer = replace(VOLUMETRIC, errors=(table("EXX", "X", [-100.0, 100.0], [0.0, 0.01]),))
-    one, other = (volumetric_contents(replace(MEASURED, volumetric=(v,)))[0] for v in (VOLUMETRIC, fewer))
+    one, other = (contents_of(replace(MEASURED, volumetric=(v,)), kind="volumetric")[0] for v in (VOLUMETRIC, fewer))
     records = one.against(other).records()
     assert records.columns[1:] == ("EXX [µm]", "EYX [µm]")
     assert np.allclose(records.rows, [(-100, 10, -3), (0, 5, -2), (100, -10, -1)])

@@ -13,9 +13,8 @@ from axcomp.plot.contents import contents_of
 from axcomp.plot.maps import Map
 from axcomp.plot.page import page, shown
 from axcomp.plot.style import png, printed
-from axcomp.plot.volume import volumetric_contents
 
-CONTENTS = [*contents_of(MACHINE), *volumetric_contents(MEASURED)]
+CONTENTS = [*contents_of(MACHINE), *contents_of(MEASURED, kind="volumetric")]
 NAMES = [content.subject.name for content in CONTENTS]
 
 

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
+from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.lists import read_machine, write_machine
 from axcomp.model.companions import models
@@ -249,7 +250,7 @@ def test_the_console_of_a_browser_has_no_error(everything: Path, tmp_path: Path)
 
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
-@pytest.mark.parametrize("model", ["three_axis", "rotary_table", "five_axis", "manual_examples"])
+@pytest.mark.parametrize("model", sorted(TRAJECTORIES))
 def test_reports_of_the_examples_open_without_an_error(model: str, tmp_path: Path) -> None:
     output = tmp_path / "report.html"
     given = models() / model / "input.csv"

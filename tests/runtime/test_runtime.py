@@ -420,6 +420,43 @@ class TestUpdate:
         k = np.clip(np.arange(1, 13), 0, 10)
         assert weights == pytest.approx(np.sin(np.pi / 2 * k / 10) ** 2)
 
+    @pytest.mark.parametrize("velocity", [0.0, 5.0])
+    def test_an_automatic_table_that_comes_needs_no_command_and_no_standstill(self, velocity: float) -> None:
+        runtime = Runtime(Machine((X, replace(Z, cross=None, reserved={"cross": 1001}))))
+        runtime.inputs.axis[1].velocity = velocity
+        for _ in range(3):
+            runtime.cycle()
+        runtime.update(MACHINE)
+        weights = []
+        for _ in range(12):
+            runtime.cycle()
+            weights.append(runtime.outputs.axis[1].contribution[CROSS] / 0.1)
+        assert weights == pytest.approx(np.sin(np.pi / 2 * np.clip(np.arange(1, 13), 0, 10) / 10) ** 2)
+
+    def test_a_manual_table_that_comes_waits_for_its_command(self) -> None:
+        runtime = Runtime(Machine((X, replace(Z, cross=None, reserved={"cross": 1001}))))
+        runtime.cycle()
+        runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, manual_activation=True)))))
+        active = []
+        for k in range(9):
+            runtime.inputs.axis[1].enable[CROSS] = k != 5  # true from the start: no edge is a command
+            runtime.cycle()
+            active.append(runtime.outputs.axis[1].active[CROSS])
+        assert active == [False] * 6 + [True] * 3
+
+    def test_a_table_that_was_commanded_off_comes_back_off(self) -> None:
+        runtime = Runtime(MACHINE)
+        runtime.cycle()
+        runtime.inputs.axis[1].enable[CROSS] = False
+        for _ in range(20):
+            runtime.cycle()
+        for new in (Machine((X, replace(Z, cross=None))), MACHINE):
+            runtime.update(new)
+            for _ in range(20):
+                runtime.cycle()
+            assert not runtime.outputs.axis[1].active[CROSS]
+            assert runtime.outputs.axis[1].contribution[CROSS] == 0.0
+
     def test_a_kind_that_was_not_activated_is_refused_even_after_other_updates(self) -> None:
         runtime = Runtime(Machine((X, replace(Z, cross=None))))
         runtime.update(Machine((replace(X, backlash_cycles=2), replace(Z, cross=None))))

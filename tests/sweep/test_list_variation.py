@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from axcomp import read_machine
+from axcomp.kinds import KINDS
 from axcomp.kinds.parameter import ListKind
 from axcomp.lists import Document
 from axcomp.model.companions import models
@@ -101,15 +102,19 @@ def test_changes_that_cannot_be_made_say_why(entry: ListEntry, value: float, sai
 
 
 def test_tables_of_every_kind_are_scaled() -> None:
-    machine = read_machine(models() / "three_axis").machine
-    for axis in machine.axes:
-        for kind in (one.kind for one in axis.compensations):
-            once = Table(f"{axis.name}.{kind}").applied(machine, 3.0)
+    scaled = set()
+    for machine in (read_machine(models() / name).machine for name in ("three_axis", "warm_axis")):
+        for table in (Table(f"{axis.name}.{one.kind}") for axis in machine.axes for one in axis.compensations):
+            scaled.add(table.name.rpartition(".")[2])
+            once = table.applied(machine, 3.0)
             assert once != machine
             assert [a == b for a, b in zip(once.axes, machine.axes, strict=True)].count(False) == 1
-            back = Table(f"{axis.name}.{kind}").applied(Table(f"{axis.name}.{kind}").applied(machine, 2.0), 0.5)
-            assert back == machine
+            assert table.applied(table.applied(machine, 2.0), 0.5) == machine
+    assert scaled == set(KINDS)
+    machine = read_machine(models() / "three_axis").machine
     plane = next(axis for axis in machine.axes if axis.plane)
+    warm = Table("X.temperature").applied(read_machine(models() / "warm_axis").machine, 2.0).axis("X").temperature
+    assert (warm.position, warm.offset, warm.coefficient) == (20.0, 0.003, 24e-6)
     doubled = Table(f"{plane.name}.plane").applied(machine, 2.0).axis(plane.name).plane
     assert doubled.corrections[3][5] == 2.0 * plane.plane.corrections[3][5]
 

@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from axcomp.model.companions import models
-from axcomp.sweep.errors import SpecError
-from axcomp.sweep.spec import Spec, read_spec
+from axcomp.sweep.spec import Spec, SpecError, read_spec
 from axcomp.sweep.sweep import job_of
 
 GOOD = {

@@ -1,14 +1,14 @@
 """The contributions to the corrections of every axis along a path.
 
 Axis compensations: what the engine adds to the setpoint, cycle by cycle. Volumetric errors: the correction of X, Y and
-Z that each of the 72 alone would lead to, all others zero, at some places of the path. The model is all but linear, so
+Z that each of the 72 alone would lead to, all others zero, at some points of the path. The model is all but linear, so
 these add up to the correction of all errors together, up to products of errors: both sums are compared.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,38 +17,38 @@ import numpy.typing as npt
 
 from ...engine.engine import Engine, Result
 from ...engine.motion import Array
+from ...engine.tcp_model import TcpModel
 from ...engine.trajectory import Columns, InputFile, completed
-from ...interface.variable import Variable, with_causality
+from ...interface.variable import with_causality
 from ...kinds import KINDS
-from ...model.machine import Axis, Machine
+from ...model.machine import Machine
 from ...model.quantity import shown
 from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
-from .model import CorrectionModel
 
 POINTS = 200
-"""Places along the path at which volumetric errors are evaluated, if nothing else is asked for."""
+"""Points of the path at which volumetric errors are evaluated, if nothing else is asked for."""
 
 VOLUMETRIC = "volumetric"
 
 Indices = npt.NDArray[np.int64]
-Names = Mapping[tuple[int | None, str], Variable]
-"""Variables by the place of their axis and their field."""
+Flags = npt.NDArray[np.bool_]
+
+
+def largest(values: Array) -> float:
+    """Return the largest size."""
+    return float(np.max(np.abs(values)))
+
+
+def rms(values: Array) -> float:
+    """Return the root of the mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
 
 
 @dataclass(frozen=True, eq=False)
 class Contribution:
-    """What one source adds to the setpoint of one axis.
+    """What one source (``leadscrew``, or ``volumetric[0] EXX``) adds to the setpoint of the axis of a name.
 
-    Attributes
-    ----------
-    axis : str
-        Name of the axis.
-    source : str
-        ``leadscrew``, or ``volumetric[0] EXX``.
-    cycles : array of int, shape (n,)
-        Cycles of the path at which there is a value.
-    values : array, shape (n,)
-        µm or ″.
+    ``values``, shape (n,), are in µm or ″, at the ``cycles`` of the path for which there is one.
     """
 
     axis: str
@@ -59,12 +59,12 @@ class Contribution:
     @property
     def max(self) -> float:
         """Largest size along the path."""
-        return float(np.max(np.abs(self.values)))
+        return largest(self.values)
 
     @property
     def rms(self) -> float:
         """Root of the mean square along the path."""
-        return float(np.sqrt(np.mean(np.square(self.values))))
+        return rms(self.values)
 
     def at(self, cycle: int) -> float:
         """Return the value at a cycle that is among ``cycles``."""
@@ -72,16 +72,14 @@ class Contribution:
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class Poses:
     """Where the path is evaluated for one volumetric compensation.
 
     Attributes
     ----------
-    volumetric : Volumetric
-    model : CorrectionModel
     names : tuple of str
         Names of its X, Y and Z.
-    places : array, shape (n, 6)
+    poses : array, shape (n, 6)
         For the model.
     tool_lengths : array, shape (n,)
         mm.
@@ -90,9 +88,9 @@ class Places:
     """
 
     volumetric: Volumetric
-    model: CorrectionModel
+    model: TcpModel
     names: tuple[str, ...]
-    places: Array
+    poses: Array
     tool_lengths: Array
     errors: Array
 
@@ -108,36 +106,35 @@ class Budget:
         s.
     points : array of int, shape (n,)
         Cycles at which volumetric errors were evaluated.
-    units : mapping of str to str
-        Unit of the contributions to each axis.
     contributions : tuple of Contribution
         Axis by axis; those that are zero everywhere are left out.
-    totals : mapping of str to array, shape (cycles,)
-        The correction of each axis, from the engine.
-    volumetric_sum, volumetric_joint : mapping of str to array, shape (n,)
-        By linear axis, at the points: the sum of the errors' contributions, and the correction of all errors together.
-    currents : mapping of str to (max, rms)
+    totals, setpoints : mapping of str to array, shape (cycles,)
+        The correction of each axis, from the engine, µm or ″, and its setpoint, mm or °.
+    joint : mapping of str to array, shape (n,)
+        By linear axis, at the points: the correction of all volumetric errors together.
+    currents : mapping of str to array, shape (cycles,)
         Of the friction compensation, by axis, in the drive's own unit.
-    setpoints : mapping of str to array, shape (cycles,)
-        Of each axis, mm or °.
     settled : array of bool, shape (n,)
         Points at which each volumetric compensation is fully on or off; else what the engine adds is on its way.
-    places : tuple of Places
+    poses : tuple of Poses
         Of the volumetric compensations.
     """
 
     machine: Machine
     time: Array
     points: Indices
-    units: Mapping[str, str]
     contributions: tuple[Contribution, ...]
     totals: Mapping[str, Array]
-    volumetric_sum: Mapping[str, Array]
-    volumetric_joint: Mapping[str, Array]
-    currents: Mapping[str, tuple[float, float]]
     setpoints: Mapping[str, Array]
-    settled: npt.NDArray[np.bool_]
-    places: tuple[Places, ...] = ()
+    joint: Mapping[str, Array]
+    currents: Mapping[str, Array]
+    settled: Flags
+    poses: tuple[Poses, ...] = ()
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of the contributions to each axis."""
+        return {axis.name: shown(axis.unit).unit for axis in self.machine.axes}
 
     def of_axis(self, axis: str) -> tuple[Contribution, ...]:
         """Return the contributions to one axis, the largest first."""
@@ -148,22 +145,25 @@ class Budget:
         sizes = np.abs(self.totals[axis][self.points])
         return int(self.points[np.argmax(np.where(self.settled, sizes, -1.0))])
 
+    def _sum(self, axis: str, only: str = "") -> Array:
+        """Return the sum of an axis' contributions at the points, of those whose source begins with ``only``."""
+        total = np.zeros(len(self.points))
+        for one in self.contributions:
+            if one.axis == axis and one.source.startswith(only):
+                total += one.values[np.searchsorted(one.cycles, self.points)]
+        return total
+
     def gap_to_joint(self, axis: str) -> float:
         """Return the largest difference between the volumetric contributions' sum and their joint correction."""
-        if axis not in self.volumetric_sum:
-            return 0.0
-        return float(np.max(np.abs(self.volumetric_sum[axis] - self.volumetric_joint[axis])))
+        return largest(self._sum(axis, VOLUMETRIC) - self.joint[axis]) if axis in self.joint else 0.0
 
     def gap_to_engine(self, axis: str) -> float:
         """Return the largest difference between the sum of all contributions and the engine's total.
 
         At the settled points; more than products of errors are in it where factors below 1 are commanded.
         """
-        total = np.zeros(len(self.points))
-        for one in self.contributions:
-            if one.axis == axis:
-                total += one.values[np.searchsorted(one.cycles, self.points)]
-        return float(np.max(np.abs(total - self.totals[axis][self.points]), where=self.settled, initial=0.0))
+        gaps = np.abs(self._sum(axis) - self.totals[axis][self.points])
+        return float(np.max(gaps, where=self.settled, initial=0.0))
 
     def plot(self, ax: Any = None, axis: str | None = None) -> Any:
         """Draw the waterfall of one axis where its correction is largest; return the Matplotlib axes."""
@@ -176,7 +176,7 @@ class Budget:
         axes = {
             axis: {
                 "unit": self.units[axis],
-                "largest correction": float(np.max(np.abs(self.totals[axis]))),
+                "largest correction": largest(self.totals[axis]),
                 "largest at": float(self.time[self.worst(axis)]),
                 "contributions": [
                     {"source": c.source, "max": c.max, "rms": c.rms, "at largest": c.at(self.worst(axis))}
@@ -187,7 +187,7 @@ class Budget:
             }
             for axis in self.totals
         }
-        currents = {axis: {"max": largest, "rms": rms} for axis, (largest, rms) in self.currents.items()}
+        currents = {axis: {"max": largest(one), "rms": rms(one)} for axis, one in self.currents.items()}
         return {"cycles": len(self.time), "points": len(self.points), "axes": axes, "currents": currents}
 
 
@@ -208,7 +208,7 @@ def budget_of(
     path : InputFile
         Setpoints, and whatever other inputs there are.
     points : int
-        At how many places of it volumetric errors are evaluated, evenly spread; at least 2.
+        At how many of its cycles volumetric errors are evaluated, evenly spread; at least 2.
     cycle_time : float
         Of the position controller, s.
     tool_length : float or None
@@ -219,7 +219,7 @@ def budget_of(
     KeyError
         For a column of the path that is no input of the machine.
     ValueError
-        If three linear axes become dependent at a place of the path.
+        If three linear axes become dependent on the path.
     """
     engine = Engine(machine, cycle_time)
     machine = engine.machine
@@ -230,68 +230,48 @@ def budget_of(
         columns.pop("tool_length", None)
     columns = completed(columns, {v.name for v in with_causality(engine.variables, "input")}, cycle_time)
     result = engine.run(columns)
-    names: Names = {(v.axis, v.quantity): v for v in engine.variables}
     at = np.unique(np.linspace(0, len(result) - 1, min(max(points, 2), len(result))).round().astype(np.int64))
     found: list[Contribution] = []
-    totals, units, currents, setpoints = {}, {}, {}, {}
-    for place, axis in enumerate(machine.axes):
-        factor, units[axis.name] = shown(axis.unit)
-        totals[axis.name] = factor * result[names[place, "correction"].name]
-        setpoints[axis.name] = columns.get(names[place, "setpoint"].name, np.zeros(len(result)))
-        found += _of_kinds(axis, place, names, result)
+    totals, currents, setpoints = {}, {}, {}
+    for index, axis in enumerate(machine.axes):
+        factor = shown(axis.unit).factor
+        names = {v.quantity: v.name for v in engine.variables if v.axis == index}
+        totals[axis.name] = factor * result[names["correction"]]
+        setpoints[axis.name] = columns.get(names["setpoint"], np.zeros(len(result)))
+        for kind in KINDS:
+            name = names.get(f"{kind}.correction")
+            if name is not None and result[name].any():
+                found.append(Contribution(axis.name, kind, np.arange(len(result)), factor * result[name]))
         if axis.friction is not None:
-            current = result[names[place, "current"].name]
-            currents[axis.name] = float(np.max(np.abs(current))), float(np.sqrt(np.mean(current**2)))
-    places = tuple(_places(machine, one, columns, names, at) for one in machine.volumetric)
-    total = {name: np.zeros(len(at)) for one in places for name in one.names}
-    joint = {name: np.zeros(len(at)) for name in total}
+            currents[axis.name] = result[names["current"]]
+    lengths = columns.get("tool_length", np.zeros(len(result)))[at]
+    poses = tuple(_poses(machine, one, setpoints, lengths, at) for one in machine.volumetric)
+    joint = {name: np.zeros(len(at)) for one in poses for name in one.names}
     settled = np.ones(len(at), dtype=bool)
-    for one in places:
+    for one in poses:
         on, still = _activity(one.volumetric, columns, result)
         settled &= still[at]
-        for contribution in _of_errors(one, at, joint, on[at]):
-            total[contribution.axis] += contribution.values
-            if contribution.values.any():
-                found.append(contribution)
-    return Budget(
-        machine, result.time, at, units, tuple(found), totals, total, joint, currents, setpoints, settled, places
-    )
+        alone, together = _of_errors(one, at, on[at])
+        found += alone
+        for name, values in zip(one.names, together.T, strict=True):
+            joint[name] += values
+    return Budget(machine, result.time, at, tuple(found), totals, setpoints, joint, currents, settled, poses)
 
 
-def _of_kinds(axis: Axis, place: int, names: Names, result: Result) -> Iterator[Contribution]:
-    """Yield what the axis compensations of one axis contribute."""
-    factor, _ = shown(axis.unit)
-    for kind in KINDS:
-        variable = names.get((place, f"{kind}.correction"))
-        if variable is not None and result[variable.name].any():
-            yield Contribution(axis.name, kind, np.arange(len(result)), factor * result[variable.name])
-
-
-def _places(
-    machine: Machine,
-    volumetric: Volumetric,
-    columns: Columns,
-    names: Names,
-    at: Indices,
-) -> Places:
+def _poses(
+    machine: Machine, volumetric: Volumetric, setpoints: Mapping[str, Array], tool_lengths: Array, at: Indices
+) -> Poses:
+    names = {letter: machine.numbered(number).name for letter, number in volumetric.axes}
     positions = np.zeros((len(at), len(LETTERS)))
-    linear = [""] * len(LINEAR)
-    for letter, number in volumetric.axes:
-        axis = machine.index_of(number)
-        column = columns.get(names[axis, "setpoint"].name)
-        if column is not None:
-            positions[:, LETTERS.index(letter)] = column[at]
-        if letter in LINEAR:
-            linear[LINEAR.index(letter)] = machine.axes[axis].name
-    model = CorrectionModel(volumetric)
-    places = model.places(positions)
-    lengths = columns["tool_length"][at] if "tool_length" in columns else np.zeros(len(at))
-    return Places(volumetric, model, tuple(linear), places, lengths, model.known_errors(places))
+    for letter, name in names.items():
+        positions[:, LETTERS.index(letter)] = setpoints[name][at]
+    model = TcpModel(volumetric)
+    poses = model.places(positions)
+    linear = tuple(names.get(letter, "") for letter in LINEAR)
+    return Poses(volumetric, model, linear, poses, tool_lengths, model.known_errors(poses))
 
 
-def _activity(
-    volumetric: Volumetric, columns: Columns, result: Result
-) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+def _activity(volumetric: Volumetric, columns: Columns, result: Result) -> tuple[Flags, Flags]:
     """Return in which cycles a compensation is on, and in which it is so fully or not at all."""
     name = f"{VOLUMETRIC}[{volumetric.index}]"
     on = np.asarray(result[f"{name}.active"], dtype=bool)
@@ -302,26 +282,22 @@ def _activity(
     return on, ~on | ((cycles - last > volumetric.filter_steps) & wanted)
 
 
-def _of_errors(
-    one: Places, at: Indices, joint: Mapping[str, Array], on: npt.NDArray[np.bool_]
-) -> Iterator[Contribution]:
-    """Yield what each error alone contributes where the compensation is on; add all together to ``joint``."""
-    factor, _ = shown("mm")
-    signs = np.array([_sign(one.volumetric, letter) for letter in LINEAR]) * on[:, np.newaxis]
-    together = factor * signs * one.model.corrections(one.places, one.tool_lengths, one.errors)
+def _of_errors(one: Poses, at: Indices, on: Flags) -> tuple[list[Contribution], Array]:
+    """Return what each error alone contributes where the compensation is on, and all together, (n, 3)."""
+    name = f"{VOLUMETRIC}[{one.volumetric.index}]"
+    signs = np.array([*map(one.volumetric.sign, LINEAR)]) * on[:, np.newaxis]
+
+    def corrections(errors: Array) -> Array:
+        return shown("mm").factor * signs * one.model.corrections(one.poses, one.tool_lengths, errors)
+
+    together = corrections(one.errors)
     if np.isnan(together).any():
-        raise ValueError(f"volumetric[{one.volumetric.index}]: X, Y and Z are dependent at a place of the path")
-    for d, name in enumerate(one.names):
-        joint[name][:] += together[:, d]
-    for place in np.flatnonzero(one.errors.any(axis=0)):
+        raise ValueError(f"{name}: X, Y and Z are dependent at a place of the path")
+    found = []
+    for error in np.flatnonzero(one.errors.any(axis=0)):
         alone = np.zeros_like(one.errors)
-        alone[:, place] = one.errors[:, place]
-        values = factor * signs * one.model.corrections(one.places, one.tool_lengths, alone)
-        for d, name in enumerate(one.names):
-            yield Contribution(name, f"{VOLUMETRIC}[{one.volumetric.index}] {ERRORS[place]}", at, values[:, d])
-
-
-def _sign(volumetric: Volumetric, letter: str) -> float:
-    if letter in volumetric.set_to_zero:
-        return 0.0
-    return -1.0 if letter in volumetric.negate else 1.0
+        alone[:, error] = one.errors[:, error]
+        for axis, values in zip(one.names, corrections(alone).T, strict=True):
+            if values.any():
+                found.append(Contribution(axis, f"{name} {ERRORS[error]}", at, values))
+    return found, together

@@ -25,8 +25,8 @@ def budget_figure(budget: Budget, uncertainty: TcpUncertainty | None = None) -> 
     axes = [axis for axis in budget.totals if budget.of_axis(axis)]
     rows = len(axes) + (uncertainty is not None)
     figure = new_figure(max(1.0, 0.62 * rows))
-    for place, axis in enumerate(axes, 1):
-        plot_waterfall(budget, axis, figure.add_subplot(max(rows, 1), 1, place))
+    for row, axis in enumerate(axes, 1):
+        plot_waterfall(budget, axis, figure.add_subplot(max(rows, 1), 1, row))
     if uncertainty is not None:
         plot_uncertainty(uncertainty, figure.add_subplot(rows, 1, rows))
     return figure

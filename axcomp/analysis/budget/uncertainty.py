@@ -110,13 +110,13 @@ def _header(cells: Sequence[str]) -> list[str]:
 
 def _row(row: dict[str, str], machine: Machine) -> list[Uncertainty]:
     name = row.get(COLUMNS[0], "")
-    kinds = LENGTHS if name not in ERRORS or not is_angle(name) else ANGLES
-    unit = (row.get("unit") or next(iter(kinds))).replace("µ", "u").replace("μ", "u")
-    if unit not in kinds:
-        raise ValueError(f"{unit} is no unit of {name}; expected one of {', '.join(kinds)}.")
+    units = ANGLES if name in ERRORS and is_angle(name) else LENGTHS
+    unit = (row.get("unit") or next(iter(units))).replace("µ", "u").replace("μ", "u")
+    if unit not in units:
+        raise ValueError(f"{unit} is no unit of {name}; expected one of {', '.join(units)}.")
     written = row.get(COLUMNS[1], "")
     try:
-        value = float(written) * kinds[unit]
+        value = float(written) * units[unit]
     except ValueError:
         raise ValueError(f"{written!r} is no number, as {COLUMNS[1]} has to be.") from None
     if not 0.0 <= value < math.inf:

@@ -16,16 +16,7 @@ _ARCHIVE = b"PK"
 
 
 class Written(NamedTuple):
-    """A diagnosis file.
-
-    Attributes
-    ----------
-    path : Path
-    diagnosis : Diagnosis
-        What is in it.
-    notes : tuple of str
-        Sentences about its place.
-    """
+    """A diagnosis file, what is in it, and sentences about where it lies."""
 
     path: Path
     diagnosis: Diagnosis
@@ -37,19 +28,12 @@ def write_diagnoses(
 ) -> Iterator[Written | BuildError]:
     """Write the diagnosis file of each list, and yield it, or why it could not be written.
 
-    Parameters
-    ----------
-    sources : sequence of VolumetricList
-        Without ``output`` each must name a diagnosis file.
-    reading : Reading
-        Of their machine.
-    output : Path
-        File to write instead of those the lists name; the index is added to its name if there are several lists.
+    It is the one the list names, else ``output``, to whose name the index is added if there are several lists.
     """
     written: set[Path] = set()
     for source in sources:
         try:
-            path, notes = _place(source) if output is None else (_numbered(output, source, len(sources)), [])
+            path, notes = _named(source) if output is None else (_numbered(output, source, len(sources)), [])
             if path in written:
                 path = _numbered(path, source, len(sources))
                 notes.append(f"{source.path.name}: another list names the same diagnosis file; {path} is written.")
@@ -65,7 +49,7 @@ def write_diagnoses(
             yield Written(path, diagnosis, tuple(notes))
 
 
-def _place(source: VolumetricList) -> tuple[Path, list[str]]:
+def _named(source: VolumetricList) -> tuple[Path, list[str]]:
     r"""Return where the file goes that a list names, and what there is to say about it.
 
     Names are relative to the start-up list. A folder at the root or on a drive is that of a controller; where there is

@@ -1,4 +1,4 @@
-"""What the parameter files of a volumetric list hold, record by record, each with the place where it stands."""
+"""What the parameter files of a volumetric list hold, record by record, each with the line where it stands."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
-from ...lists import Finding, Reading
+from ...lists import Document, Finding, Reading
 from ...lists.catalogue_volumetric import ETALON_EXCHANGE
 from ...lists.etalon import read_etalon
 from ...lists.files import Files
@@ -28,25 +28,26 @@ _POLYLINES = (Interpolation.PATH.value, Interpolation.PATH_XY.value)
 
 @dataclass(frozen=True)
 class VolumetricList:
-    """A volumetric list that a start-up list names.
-
-    Attributes
-    ----------
-    index : int
-        0..4, its place in the start-up list.
-    start_up, values : ListValues
-        What start-up list and volumetric list say.
-    path : Path
-        Of the volumetric list.
-    folder : Path
-        What file names are relative to.
-    """
+    """A volumetric list that a start-up list names: its index there, 0..4, and both as they were read."""
 
     index: int
-    start_up: ListValues
-    values: ListValues
-    path: Path
-    folder: Path
+    start_up: Document
+    document: Document
+
+    @property
+    def values(self) -> ListValues:
+        """What it says."""
+        return self.document.values
+
+    @property
+    def path(self) -> Path:
+        """Of the list."""
+        return self.document.path
+
+    @property
+    def folder(self) -> Path:
+        """What file names are relative to."""
+        return self.start_up.path.parent
 
     @property
     def diagnosis_file(self) -> str:
@@ -59,19 +60,9 @@ Position = tuple[float | None, ...]
 
 
 class Record(NamedTuple):
-    """One value of a parameter file.
+    """One value of a parameter file, in mm or rad or a bare number, with its line.
 
-    Attributes
-    ----------
-    parameter : str
-        One of ``PARAMETERS``.
-    position : tuple of float or None, shape (6,)
-    value : float
-        mm, rad or a bare number.
-    line : int
-        Where it stands in its file.
-    note : str
-        Why it does not count, "" if it does.
+    ``parameter`` is one of ``PARAMETERS``; ``note`` says why the record does not count, "" if it does.
     """
 
     parameter: str
@@ -85,16 +76,8 @@ class Record(NamedTuple):
 class ParameterFile:
     """A parameter file with its records, sorted by parameter (``ERRORS``, then ``DESCRIPTION``) and position.
 
-    Attributes
-    ----------
-    index : int
-        0..9, ``j`` of ``file[j]``.
-    path : Path
-        Where it lies, or its name alone if there is no such file.
-    was_read : bool
-        False if there is none, or it is no text.
-    records : tuple of Record
-        Those of a polyline in the order of the file.
+    Those of a polyline stand in the order of the file. ``index``, 0..9, is ``j`` of ``file[j]``; ``path`` is the name
+    alone if there is no such file; ``was_read`` is false if there is none, or it is no text.
     """
 
     index: int
@@ -135,18 +118,18 @@ def volumetric_lists(reading: Reading) -> tuple[list[VolumetricList], list[str]]
     """Return the volumetric lists of a machine, and a sentence for each that could not be read."""
     found: list[VolumetricList] = []
     faults: list[str] = []
-    if reading.start_up is None:
+    start_up = reading.start_up
+    if start_up is None:
         return found, faults
-    start_up, folder = reading.start_up.values, reading.start_up.path.parent
     files = Files(Findings(), reading.documents.values())
     for index in range(COMPENSATIONS_MAX):
-        name = start_up.text(FILE_NAME, index)
-        path = files.named(folder, name, ("", 0, "")) if name else None
+        name = start_up.values.text(FILE_NAME, index)
+        path = files.named(start_up.path.parent, name, ("", 0, "")) if name else None
         document = None if path is None else files.document(path)
         if document is not None:
-            found.append(VolumetricList(index, start_up, document.values, document.path, folder))
+            found.append(VolumetricList(index, start_up, document))
         elif name:
-            faults.append(f"the volumetric list {name!r}, which {Path(start_up.file).name} names, cannot be read.")
+            faults.append(f"the volumetric list {name!r}, which {start_up.path.name} names, cannot be read.")
     return found, faults
 
 
@@ -182,8 +165,8 @@ def diagnose(source: VolumetricList, reading: Reading) -> Diagnosis:
     counted = parameters.records()
     if values.flag("enable_splicing"):
         counted = assemble(blocks, mode, enable_splicing=True, findings=Findings()).records()
-    notes = _Notes(values.text("chain").upper(), mode, blocks)
-    files = tuple(ParameterFile(j, path, held is not None, _sorted(held or [], notes)) for j, path, held in read)
+    sorted_records = _Sorter(values.text("chain").upper(), mode, blocks)
+    files = tuple(ParameterFile(j, path, held is not None, sorted_records(held or [])) for j, path, held in read)
     names = {str(source.path), *(str(file.path) for file in files)}
     entry = f"vol_comp[{source.index}]."
     return Diagnosis(
@@ -225,8 +208,8 @@ def _axes(values: ListValues, parameters: Parameters) -> Iterator[tuple[str, tup
             yield letter, (values.integer(entry), f"{Path(values.file).name}:{values.line(entry)}")
 
 
-class _Notes:
-    """Knows which records do not count: others stand for them, or their axis takes no part."""
+class _Sorter:
+    """Sorts records, and knows which do not count: others stand for them, or their axis takes no part."""
 
     def __init__(self, chain: str, mode: str, blocks: Sequence[ParameterBlock]) -> None:
         self._chain = chain
@@ -237,10 +220,25 @@ class _Notes:
                 for name in block.names:
                     self._last[name, position] = (block, i)
 
-    def note(self, block: ParameterBlock, i: int, name: str, position: Position) -> str:
+    def __call__(self, blocks: Sequence[ParameterBlock]) -> tuple[Record, ...]:
+        """Return the records of some blocks by parameter, then by position unless they are those of a polyline."""
+
+        def order(record: Record) -> tuple[int, tuple[float, ...]]:
+            position = () if self._polylines else record.position
+            return _RANK[record.parameter], tuple(-math.inf if x is None else x for x in position)
+
+        found = [
+            Record(name, position, value, block.lines[i], self._note(block, i, name, position))
+            for block in blocks
+            for i, position in enumerate(_positions(block))
+            for name, value in zip(block.names, block.rows[i][len(block.arguments) :], strict=True)
+        ]
+        return tuple(sorted(found, key=order))
+
+    def _note(self, block: ParameterBlock, i: int, name: str, position: Position) -> str:
         """Return why the record of a parameter in row ``i`` of a block does not count, "" if it does."""
         if block.arguments and self._polylines:
-            # A polyline may come back to a place: only the next record, at the same place, replaces one.
+            # A polyline may come back to a position: only the next record, at the same one, replaces one.
             width = len(block.arguments)
             again = i + 1 < len(block.rows) and block.rows[i + 1][:width] == block.rows[i][:width]
             by, row = block, i + again
@@ -252,23 +250,8 @@ class _Notes:
             return f"not used: {name[-1]} is not in the chain {self._chain}"
         return ""
 
-    def order(self, record: Record) -> tuple[int, tuple[float, ...]]:
-        """Return what to sort by: parameter, then position unless the order is that of a polyline."""
-        rank = _RANK[record.parameter]
-        return rank, () if self._polylines else tuple([-math.inf if x is None else x for x in record.position])
-
 
 def _positions(block: ParameterBlock) -> Iterator[Position]:
-    places = [block.arguments.index(letter) if letter in block.arguments else None for letter in LETTERS]
+    columns = [block.arguments.index(letter) if letter in block.arguments else None for letter in LETTERS]
     for row in block.rows:
-        yield tuple([None if place is None else row[place] for place in places])
-
-
-def _sorted(blocks: Sequence[ParameterBlock], notes: _Notes) -> tuple[Record, ...]:
-    found = [
-        Record(name, position, value, block.lines[i], notes.note(block, i, name, position))
-        for block in blocks
-        for i, position in enumerate(_positions(block))
-        for name, value in zip(block.names, block.rows[i][len(block.arguments) :], strict=True)
-    ]
-    return tuple(sorted(found, key=notes.order))
+        yield tuple([None if column is None else row[column] for column in columns])

@@ -24,6 +24,7 @@ from openpyxl.xml.functions import tostring
 from ...fmu.archive import generation_date, write_fmu
 from ...kinds.parameter import ListKind, Parameter
 from ...lists.catalogue import CATALOGUE, parameter
+from ...lists.values import ListValues
 from ...model.volumetric import AXIS_NUMBERS, DIRECTIONS, FILES_MAX, LETTERS, LINEAR, TOOL_ORIENTATION, is_angle
 from .records import FILE_NAME, MAX_RECORDS, Diagnosis, ParameterFile, Record
 
@@ -125,30 +126,18 @@ class _Columns:
     """The columns that the records of a file need."""
 
     def __init__(self, file: ParameterFile) -> None:
-        used = {place for record in file.records for place, x in enumerate(record.position) if x is not None}
-        self._places = sorted(used)
+        self._axes = sorted({k for record in file.records for k, x in enumerate(record.position) if x is not None})
         self._values = sorted({_value_column(record.parameter) for record in file.records})
-        units = ("mm" if letter in LINEAR else "°" for letter in LETTERS)
-        arguments = [f"{letter} [{unit}]" for letter, unit in zip(LETTERS, units, strict=True)]
-        self.header = (
-            "parameter",
-            *(arguments[place] for place in self._places),
-            *(VALUE_COLUMNS[place] for place in self._values),
-            "line",
-            "note",
-        )
-        self.widths = (12, *(12 for _ in self._places), *(16 for _ in self._values), 8, 40)
+        axes = (f"{LETTERS[k]} [{'mm' if LETTERS[k] in LINEAR else '°'}]" for k in self._axes)
+        self.header = ("parameter", *axes, *(VALUE_COLUMNS[k] for k in self._values), "line", "note")
+        self.widths = (12, *(12 for _ in self._axes), *(16 for _ in self._values), 8, 40)
 
     def row(self, record: Record) -> list[Cell]:
         """Return the cells of a record."""
         column = _value_column(record.parameter)
-        return [
-            record.parameter,
-            *(record.position[place] for place in self._places),
-            *(record.value if place == column else None for place in self._values),
-            record.line,
-            record.note or None,
-        ]
+        values = (record.value if k == column else None for k in self._values)
+        positions = (record.position[k] for k in self._axes)
+        return [record.parameter, *positions, *values, record.line, record.note or None]
 
 
 def _value_column(name: str) -> int:
@@ -159,40 +148,31 @@ def _value_column(name: str) -> int:
 
 def _settings(diagnosis: Diagnosis) -> Iterator[Sequence[Cell]]:
     """Yield the rows of the first sheet: the list, its records, its entries, then what there is to say about them."""
-    source = diagnosis.source
-    start_up, values = source.start_up, source.values
+    source, values = diagnosis.source, diagnosis.source.values
     for name, unit in ((FILE_NAME, ""), (MAX_RECORDS, "records")):
-        declared = parameter(ListKind.START_UP, name)
-        value = start_up.value(name, source.index)
-        where = _where(*start_up.place(name, source.index)) if start_up.given(name, source.index) else "default"
-        yield _row(declared, declared.named(source.index), value if isinstance(value, str) else int(value), where, unit)
+        yield _setting(parameter(ListKind.START_UP, name), source.start_up.values, source.index, unit=unit)
     yield "records used", diagnosis.counted, "records", None, "Records that count against max_records", None
     yield "records spliced", diagnosis.spliced, "records", None, "Those among them that enable_splicing has added", None
     state = "in force" if diagnosis.in_force else "off"
     yield "state", state, None, None, "off: an error keeps the compensation off", None
     for declared in CATALOGUE[ListKind.VOLUMETRIC]:
         if declared.index_max:
-            for j in (j for j in range(FILES_MAX) if values.text("file[j]", j)):
-                value = values.text(declared.name, j)
-                where = _where(*values.place(declared.name, j)) if values.given(declared.name, j) else "default"
-                yield _row(declared, declared.named(j), value, where)
+            yield from (_setting(declared, values, j) for j in range(FILES_MAX) if values.text("file[j]", j))
         elif declared.name.upper() in diagnosis.axes:
-            number, where = diagnosis.axes[declared.name.upper()]
-            yield _row(declared, declared.name, number, where)
+            yield _row(declared, declared.name, *diagnosis.axes[declared.name.upper()])
         else:
-            value = values.value(declared.name)
-            where = _where(*values.place(declared.name)) if values.given(declared.name) else "default"
-            yield _row(declared, declared.name, value if isinstance(value, str) else int(value), where)
+            yield _setting(declared, values)
     for finding in diagnosis.findings:
         message = finding.message.replace(f"{source.folder}{os.sep}", "")
-        yield (
-            f"{finding.severity.value} {finding.code}",
-            message,
-            None,
-            None,
-            finding.parameter,
-            _where(finding.file, finding.line),
-        )
+        code = f"{finding.severity.value} {finding.code}"
+        yield code, message, None, None, finding.parameter, _where(finding.file, finding.line)
+
+
+def _setting(declared: Parameter, values: ListValues, *indices: int, unit: str = "") -> Sequence[Cell]:
+    """Return the row of an entry of a list."""
+    value = values.value(declared.name, *indices)
+    where = _where(*values.place(declared.name, *indices)) if values.given(declared.name, *indices) else "default"
+    return _row(declared, declared.named(*indices), value if isinstance(value, str) else int(value), where, unit)
 
 
 def _row(declared: Parameter, name: str, value: Cell, where: str, unit: str = "") -> Sequence[Cell]:

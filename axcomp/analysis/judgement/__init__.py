@@ -11,8 +11,9 @@ if TYPE_CHECKING:
     from .coverage import Coverage as Coverage
     from .dynamics import Demand as Demand
     from .dynamics import DynamicsResult as DynamicsResult
-    from .judging import Judgement as Judgement
-    from .judging import judge as judge
+    from .judgement import Evidence as Evidence
+    from .judgement import Judgement as Judgement
+    from .judgement import judge as judge
     from .limits import LargestCorrection as LargestCorrection
     from .sign import SignResult as SignResult
     from .sign import sign_of as sign_of
@@ -21,7 +22,7 @@ __all__, __getattr__, __dir__ = face(
     __name__,
     coverage="Coverage",
     dynamics="Demand DynamicsResult",
-    judging="Judgement judge",
+    judgement="Evidence Judgement judge",
     limits="LargestCorrection",
     sign="SignResult sign_of",
 )

@@ -7,21 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from itertools import chain
 from typing import Any
 
 import numpy as np
 
 from ...engine.motion import Array
+from ...interface.variables import identifier
 from ...kinds import tables_of
 from ...kinds.shown import ACCELERATION, POSITION
 from ...lists import Position
 from ...lists.findings import Findings
-from ...model.machine import Axis, AxisType, Machine
+from ...model.machine import Axis, Machine
 from ...model.quantity import symbol
-from ...model.volumetric import FULL_TURN, ErrorTable, Volumetric, turn_of
-from .positions import Positions
-from .trajectory import column_of, setpoints
+from ...model.volumetric import FULL_TURN, LETTERS, LINEAR, Volumetric, turn_of
+from .positions import Positions, sentence
 
 TOLERANCE = 1e-6
 """mm or °: what lies outside by less is rounding."""
@@ -60,11 +59,8 @@ class Coverage:
         """Return the finding's sentence."""
         beyond = [
             f"{abs(used - held):g} {self.unit} {where}"
-            for used, held, where, is_out in (
-                (self.used[0], self.held[0], "below", self.used[0] < self.held[0] - TOLERANCE),
-                (self.used[1], self.held[1], "above", self.used[1] > self.held[1] + TOLERANCE),
-            )
-            if is_out
+            for used, held, where, sign in zip(self.used, self.held, ("below", "above"), (-1.0, 1.0), strict=True)
+            if sign * (used - held) > TOLERANCE
         ]
         return (
             f"{self.quantity} goes from {self.used[0]:g} to {self.used[1]:g} {self.unit}, {self.table} from "
@@ -78,17 +74,12 @@ class Coverage:
         return {name: getattr(self, name) for name in names}
 
 
-def coverage_of(machine: Machine, trajectory: Mapping[str, Array], positions: Positions) -> Iterator[Coverage]:
-    """Yield what a file uses of every table whose quantities it moves.
+def judge_coverage(
+    machine: Machine, trajectory: Mapping[str, Array], positions: Positions, findings: Findings
+) -> list[Coverage]:
+    """Note where a file leaves the tables, and return what it uses of every table whose quantities it moves.
 
-    Parameters
-    ----------
-    machine : Machine
-        Whose tables.
-    trajectory : mapping of str to array, shape (rows,)
-        As ``sweep.trajectory.read_input(path).columns``: ``X.setpoint`` and the like in mm, °, mm/s² …
-    positions : Positions
-        Of its lists.
+    ``trajectory``: ``X.setpoint`` and so on, (rows,), mm, ° or mm/s², as ``engine.trajectory.read_input`` gives it.
 
     Raises
     ------
@@ -96,34 +87,71 @@ def coverage_of(machine: Machine, trajectory: Mapping[str, Array], positions: Po
         The file moves no axis of the machine.
     """
     moved = setpoints(trajectory, machine)
-    names = {axis.number: axis for axis in machine.axes}
-    for tables in tables_of(machine):
-        for over, low, high, entry in tables.ranges():
-            position = positions.of_table(tables.axis.number, entry, *([0] * entry.count("[")))
-            axis = machine.axis(over.axis)
-            used = column_of(trajectory, axis, ACCELERATION) if over.name == ACCELERATION else moved.get(axis.number)
-            quantity = {POSITION: axis.name, ACCELERATION: f"the acceleration of {axis.name}"}.get(over.name)
-            if used is not None and quantity is not None:
-                yield _coverage(tables.name, quantity, over.unit, (low, high), used, position)
+    results = [*_of_tables(machine, trajectory, moved, positions)]
     for volumetric in machine.volumetric:
-        yield from _of_volumetric(volumetric, names, moved, positions)
+        results += _of_volumetric(volumetric, machine, moved, positions)
+    for result in results:
+        if result.outside > 0.0:
+            findings.add("AXC-COVERAGE", *result.position, sentence(result.message))
+    return results
 
 
-def judge_coverage(
-    machine: Machine, trajectory: Mapping[str, Array], positions: Positions, findings: Findings
-) -> list[Coverage]:
-    """Note where a file leaves the tables, and return what it uses of each.
+def setpoints(trajectory: Mapping[str, Array], machine: Machine) -> dict[int, Array]:
+    """Return the setpoints by axis number, of the axes that the file moves.
 
     Raises
     ------
     ValueError
-        As ``coverage_of`` does.
+        It moves none.
     """
-    results = list(coverage_of(machine, trajectory, positions))
-    for result in results:
-        if result.outside > 0.0:
-            findings.add("AXC-COVERAGE", *result.position, f"{result.message[0].upper()}{result.message[1:]}")
-    return results
+    found = {axis.number: _column(trajectory, axis, "setpoint") for axis in machine.axes}
+    moved = {number: column for number, column in found.items() if column is not None}
+    if not moved:
+        names = ", ".join(f"{identifier(axis.name)}.setpoint" for axis in machine.axes[:3]) or "none, it has no axis"
+        raise ValueError(f"the input file has no setpoint of an axis of this machine: {names}")
+    return moved
+
+
+def _column(trajectory: Mapping[str, Array], axis: Axis, quantity: str) -> Array | None:
+    """Return a quantity of an axis, ``X.setpoint`` or ``X_setpoint``; None if the file has no such column."""
+    name = identifier(axis.name)
+    return trajectory.get(f"{name}.{quantity}", trajectory.get(f"{name}_{quantity}"))
+
+
+def _of_tables(
+    machine: Machine, trajectory: Mapping[str, Array], moved: dict[int, Array], positions: Positions
+) -> Iterator[Coverage]:
+    for tables in tables_of(machine):
+        for over, low, high, entry in tables.ranges():
+            axis = machine.axis(over.axis)
+            used = _column(trajectory, axis, ACCELERATION) if over.name == ACCELERATION else moved.get(axis.number)
+            quantity = {POSITION: axis.name, ACCELERATION: f"the acceleration of {axis.name}"}.get(over.name)
+            if used is not None and quantity is not None:
+                position = positions.of_table(tables.axis.number, entry)
+                yield _coverage(tables.name, quantity, over.unit, (low, high), used, position)
+
+
+def _of_volumetric(
+    volumetric: Volumetric, machine: Machine, moved: dict[int, Array], positions: Positions
+) -> Iterator[Coverage]:
+    """Yield the coverage of each axis by the narrowest of its error tables."""
+    for letter, number in volumetric.axes:
+        tables = [table for table in volumetric.errors if letter in table.arguments]
+        axis = machine.numbered(number)
+        nodes = [table.positions(letter) for table in tables]
+        # A table over a full turn of a rotary axis has no outside.
+        nodes = [own for own in nodes if letter in LINEAR or max(own) - min(own) < FULL_TURN]
+        if number not in moved or not nodes:
+            continue
+        held = (max(map(min, nodes)), min(map(max, nodes)))
+        used = moved[number] + volumetric.offsets[LETTERS.index(letter)] * (1.0 if letter in LINEAR else 180.0 / np.pi)
+        turn = None if letter in LINEAR else turn_of(*held, None if axis.modulo is None else axis.modulo.length)
+        if turn is not None:
+            used = turn[0] + np.mod(used - turn[0], turn[1])
+        errors = " ".join([*(table.name for table in tables[:3]), *(["…"] if len(tables) > 3 else [])])
+        name = f"volumetric compensation {volumetric.index} ({errors})"
+        position = positions.of_volumetric(volumetric.index)
+        yield _coverage(name, axis.name, symbol(axis.unit), held, used, position)
 
 
 def _coverage(
@@ -131,31 +159,3 @@ def _coverage(
 ) -> Coverage:
     outside = float(np.mean((used < held[0] - TOLERANCE) | (used > held[1] + TOLERANCE)))
     return Coverage(table, quantity, unit, held, (float(used.min()), float(used.max())), outside, position)
-
-
-def _of_volumetric(
-    volumetric: Volumetric, names: dict[int, Axis], moved: dict[int, Array], positions: Positions
-) -> Iterator[Coverage]:
-    """Yield the coverage of each axis by the narrowest of its error tables."""
-    position = positions.of_volumetric(volumetric.index)
-    for letter, number in volumetric.axes:
-        axis = names[number]
-        tables = [table for table in volumetric.errors if letter in table.arguments]
-        if axis.type is not AxisType.TRANSLATORY:
-            tables = [table for table in tables if np.ptp(_range(table, letter)) < FULL_TURN]
-        if number not in moved or not tables:
-            continue
-        ranges = [_range(table, letter) for table in tables]
-        held = (max(low for low, _ in ranges), min(high for _, high in ranges))
-        used = moved[number] + volumetric.offsets["XYZABC".index(letter)] * (1.0 if letter in "XYZ" else 180.0 / np.pi)
-        turn = turn_of(*held, None if axis.modulo is None else axis.modulo.length)
-        if turn is not None:
-            used = turn[0] + np.mod(used - turn[0], turn[1])
-        errors = " ".join(chain((table.name for table in tables[:3]), ["…"] if len(tables) > 3 else []))
-        name = f"volumetric compensation {volumetric.index} ({errors})"
-        yield _coverage(name, axis.name, symbol(axis.unit), held, used, position)
-
-
-def _range(table: ErrorTable, letter: str) -> tuple[float, float]:
-    positions = [node[table.arguments.index(letter)] for node in table.nodes]
-    return min(positions), max(positions)

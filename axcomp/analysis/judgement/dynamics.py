@@ -12,21 +12,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from ...engine.motion import Array
-from ...kinds import tables_of
+from ...kinds import Tables, tables_of
 from ...lists.findings import Findings
-from ...model.machine import Axis, Machine
+from ...model.machine import CYCLE_TIME, Axis, Machine
 from ...model.quantity import shown, symbol
-from .positions import Positions
+from .positions import Positions, sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-CYCLE_TIME = 1e-3
+
+Shape: TypeAlias = tuple[Array, Array, Array, Array, Array]
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,25 @@ class Demand:
         return values.get(axis, values.get("", default))
 
 
+@dataclass(frozen=True)
+class Ramp:
+    """A correction of some mm or ° that comes or goes over some cycles (of ``cycle_time`` s) by sin²."""
+
+    size: float
+    cycles: int
+    cycle_time: float
+
+    @property
+    def velocity(self) -> float:
+        """Largest velocity, mm/s or °/s."""
+        return self.size * ramp_rates(self.cycles)[0] / self.cycle_time
+
+    @property
+    def acceleration(self) -> float:
+        """Largest acceleration, mm/s² or °/s²."""
+        return self.size * ramp_rates(self.cycles)[1] / self.cycle_time**2
+
+
 @dataclass(frozen=True, eq=False)
 class DynamicsResult:
     """What a table asks for while one axis moves.
@@ -68,24 +88,20 @@ class DynamicsResult:
         Name of its entries in the list.
     feed : float
         Of the axis that moves, mm/s or °/s; 0: not given.
-    intervals : array, shape (n, 2)
-        Begin and end of the intervals, mm or °.
+    x : array, shape (n + 1,)
+        Points of the table, mm or °.
     slopes : array, shape (n,)
         Of what is added in each interval; of several rows or directions the size of the largest.
-    kinks : array, shape (n − 1,) or (n,)
+    kinks : array, shape (n,) or (n + 2,)
         Largest change of the slope between one interval and the next.
     kinks_at : array, shape as kinks
         Where.
     curvatures : array, shape as kinks
         Change of the slope over the distance between the middles of both intervals, 1/mm or 1/°.
-    jump : float
-        Largest correction that switching makes, mm or °; a plane's stands with its first master.
-    jump_cycles : int
-        Over so many cycles.
-    reversal : float
-        Largest difference of the directions, mm or °; 0 for tables without.
-    reversal_cycles : int
-        Over so many cycles.
+    jump : Ramp
+        The largest correction, which switching makes; a plane's stands with its first master.
+    reversal : Ramp
+        The largest difference of the directions, 0 for tables without.
     cycle_time : float
         s.
     """
@@ -95,15 +111,13 @@ class DynamicsResult:
     over: Axis
     entry: str
     feed: float
-    intervals: Array
+    x: Array
     slopes: Array
     kinks: Array
     kinks_at: Array
     curvatures: Array
-    jump: float
-    jump_cycles: int
-    reversal: float
-    reversal_cycles: int
+    jump: Ramp
+    reversal: Ramp
     cycle_time: float
 
     @property
@@ -112,14 +126,19 @@ class DynamicsResult:
         return int(np.argmax(np.abs(self.slopes)))
 
     @property
-    def sharpest(self) -> int:
-        """Index of the largest kink."""
-        return int(np.argmax(self.kinks))
+    def sharpest_at(self) -> float:
+        """Where the largest kink is."""
+        return float(self.kinks_at[np.argmax(self.kinks)])
+
+    @property
+    def slope(self) -> float:
+        """Size of the largest slope."""
+        return float(np.abs(self.slopes).max(initial=0.0))
 
     @property
     def added_velocity(self) -> float:
         """Slope · feed, mm/s or °/s."""
-        return float(np.abs(self.slopes).max(initial=0.0)) * self.feed
+        return self.slope * self.feed
 
     @property
     def added_acceleration(self) -> float:
@@ -131,44 +150,42 @@ class DynamicsResult:
         """Curvature · feed², which a table of the same curvature without kinks would ask for."""
         return float(self.curvatures.max(initial=0.0)) * self.feed**2
 
-    @property
-    def jump_velocity(self) -> float:
-        """Velocity of switching on or off."""
-        return self.jump * ramp_rates(self.jump_cycles)[0] / self.cycle_time
-
-    @property
-    def jump_acceleration(self) -> float:
-        """Acceleration of switching on or off."""
-        return self.jump * ramp_rates(self.jump_cycles)[1] / self.cycle_time**2
-
-    @property
-    def reversal_velocity(self) -> float:
-        """Velocity while the directions change over."""
-        return self.reversal * ramp_rates(self.reversal_cycles)[0] / self.cycle_time
-
-    @property
-    def reversal_acceleration(self) -> float:
-        """Acceleration while the directions change over."""
-        return self.reversal * ramp_rates(self.reversal_cycles)[1] / self.cycle_time**2
-
     def to_dict(self) -> dict[str, Any]:
         """Return the figures for JSON, in mm or ° and s."""
-        names = ["added_velocity", "added_acceleration", "smooth_acceleration"]
-        names += ["jump", "jump_cycles", "jump_velocity", "jump_acceleration"]
-        names += ["reversal", "reversal_cycles", "reversal_velocity", "reversal_acceleration"]
-        head: dict[str, Any] = {"table": self.name, "axis": self.axis.name, "over": self.over.name, "feed": self.feed}
-        return head | {
-            "slope": float(np.abs(self.slopes).max(initial=0.0)),
+        figures: dict[str, Any] = {
+            "table": self.name,
+            "axis": self.axis.name,
+            "over": self.over.name,
+            "feed": self.feed,
+            "slope": self.slope,
             "kink": float(self.kinks.max(initial=0.0)),
             "curvature": float(self.curvatures.max(initial=0.0)),
-            **{name: getattr(self, name) for name in names},
         }
+        for name in ("added_velocity", "added_acceleration", "smooth_acceleration"):
+            figures[name] = getattr(self, name)
+        for name, ramp in (("jump", self.jump), ("reversal", self.reversal)):
+            figures |= {name: ramp.size, f"{name}_cycles": ramp.cycles}
+            figures |= {f"{name}_velocity": ramp.velocity, f"{name}_acceleration": ramp.acceleration}
+        return figures
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the slope over the position, with the velocity it adds; return the axes."""
-        from .plots import plot_dynamics
+        from ...plot.style import UP, labelled, new_figure
 
-        return plot_dynamics(self, ax)
+        ax = new_figure().add_subplot() if ax is None else ax
+        unit, over = symbol(self.axis.unit), symbol(self.over.unit)
+        small = shown(self.axis.unit)
+        if len(self.slopes):
+            ax.stairs(small.factor * self.slopes, self.x, color=UP, lw=1.5, baseline=None)
+        ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+        if self.feed:
+            factor = self.feed / small.factor
+            scales = (lambda slope: np.asarray(slope) * factor, lambda velocity: np.asarray(velocity) / factor)
+            second = ax.secondary_yaxis("right", functions=scales)
+            second.set_ylabel(f"added velocity at {self.feed:g} {over}/s [{unit}/s]", fontsize=11)
+        ax.set_axisbelow(True)
+        x, y = f"position of {self.over.name} [{over}]", f"slope [{small.unit}/{over}]"
+        return labelled(ax, f"{sentence(self.name)}: slope", x, y)
 
 
 def rate(value: float) -> str:
@@ -188,134 +205,113 @@ def dynamics_of(machine: Machine, demand: Demand) -> Iterator[DynamicsResult]:
     """Yield what each table over positions asks for, a plane's for either master."""
     for tables in tables_of(machine):
         axis, cycles = tables.axis, getattr(tables.compensation, "n_cycles", 0)
-        if tables.curves:
-            sides = [curve.added().closed() for curve in tables.curves]
-            rows = np.array([side.y for side in sides])
-            over = sides[0].over.axis
+        for name, over, entry, shape, jump, reversal in _sides(tables):
             yield DynamicsResult(
-                tables.name,
+                name,
                 axis,
                 machine.axis(over),
-                sides[0].entry,
+                entry,
                 demand.of(demand.feed, over, 0.0),
-                *_shape(np.array(sides[0].x), rows, sides[0].period is not None),
-                jump=float(np.abs(rows).max()),
-                jump_cycles=cycles,
-                reversal=float(np.abs(rows[0] - rows[-1]).max()),
-                reversal_cycles=axis.backlash_cycles,
-                cycle_time=demand.cycle_time,
+                *shape,
+                Ramp(jump, cycles, demand.cycle_time),
+                Ramp(reversal, axis.backlash_cycles, demand.cycle_time),
+                demand.cycle_time,
             )
-        for grid in tables.grids:
-            values = np.array(grid.values)
-            for place, (along, x) in enumerate(zip(grid.over, (grid.x, grid.y), strict=True)):
-                yield DynamicsResult(
-                    f"the {tables.kind} table of {axis.name} along {along.axis}",
-                    axis,
-                    machine.axis(along.axis),
-                    grid.entry,
-                    demand.of(demand.feed, along.axis, 0.0),
-                    *_shape(np.array(x), values.T if place else values, False),
-                    jump=0.0 if place else float(np.abs(values).max()),
-                    jump_cycles=cycles,
-                    reversal=0.0,
-                    reversal_cycles=0,
-                    cycle_time=demand.cycle_time,
-                )
 
 
-def _shape(x: Array, rows: Array, repeats: bool) -> tuple[Array, Array, Array, Array, Array]:
-    """Return intervals, slopes, kinks, their places and curvatures; what lies outside is held, so the slope there is 0.
+def _sides(tables: Tables) -> Iterator[tuple[str, str, str, Shape, float, float]]:
+    """Yield name, axis that moves, entry, shape, largest correction and reversal of a table, a plane's twice."""
+    if tables.curves:
+        sides = [curve.added().closed() for curve in tables.curves]
+        first, rows = sides[0], np.array([side.y for side in sides])
+        jump, reversal = float(np.abs(rows).max()), float(np.abs(rows[0] - rows[-1]).max())
+        shape = _shape(np.array(first.x), rows, first.period is not None)
+        yield tables.name, first.over.axis, first.entry, shape, jump, reversal
+    for grid in tables.grids:
+        values = np.array(grid.values)
+        jumps = (float(np.abs(values).max()), 0.0)
+        for along, x, rows, jump in zip(grid.over, (grid.x, grid.y), (values, values.T), jumps, strict=True):
+            name = f"the {tables.kind} table of {tables.axis.name} along {along.axis}"
+            yield name, along.axis, grid.entry, _shape(np.array(x), rows, False), jump, 0.0
 
-    Parameters
-    ----------
-    x : array, shape (n,)
-        Points.
-    rows : array, shape (m, n)
-        Of each interval and kink the largest of all rows counts.
-    repeats : bool
-        The last point is the first one again.
+
+def _shape(x: Array, rows: Array, repeats: bool) -> Shape:
+    """Return points, slopes, kinks, their positions and curvatures of rows, (m, n) over n points: the largest of all.
+
+    Where it repeats the last point is the first one again; else what lies outside is held, so the slope there is 0, and
+    no curvature belongs to the kinks at the ends.
     """
     if len(x) < 2:
-        return np.empty((0, 2)), np.empty(0), np.empty(0), np.empty(0), np.empty(0)
+        nothing = np.empty(0)
+        return x, nothing, nothing, nothing, nothing
     widths = np.diff(x)
     slopes = np.diff(rows) / widths
-    inner = np.abs(np.diff(slopes))
-    distance = 0.5 * (widths[1:] + widths[:-1])
-    kinks, places, distances = inner, x[1:-1], distance
     if repeats:
-        kinks = np.concatenate([inner, np.abs(slopes[:, :1] - slopes[:, -1:])], axis=1)
-        places = x[1:]
-        distances = np.append(distance, 0.5 * (widths[0] + widths[-1]))
+        steps = np.diff(slopes, append=slopes[:, :1])
+        kinks_at, distances = x[1:], 0.5 * (widths + np.roll(widths, -1))
     else:
-        # Beyond the ends the slope is 0; no curvature belongs to these kinks.
-        kinks = np.concatenate([np.abs(slopes[:, :1]), inner, np.abs(slopes[:, -1:])], axis=1)
-        places = x
-        distances = np.concatenate([[np.inf], distance, [np.inf]])
+        steps = np.diff(slopes, prepend=0.0, append=0.0)
+        kinks_at, distances = x, np.concatenate([[np.inf], 0.5 * (widths[1:] + widths[:-1]), [np.inf]])
+    kinks = np.abs(steps).max(axis=0)
     largest = slopes[0] if len(slopes) == 1 else np.abs(slopes).max(axis=0)
-    kink = kinks.max(axis=0)
-    return np.column_stack([x[:-1], x[1:]]), largest, kink, places, kink / distances
+    return x, largest, kinks, kinks_at, kinks / distances
 
 
 def judge_dynamics(machine: Machine, demand: Demand, positions: Positions, findings: Findings) -> list[DynamicsResult]:
     """Note and return what tables ask for: the figures at a feed, and whatever is beyond the limits."""
     results = list(dynamics_of(machine, demand))
     for result in results:
-        unit, name, size = symbol(result.axis.unit), result.axis.name, f"{result.name[0].upper()}{result.name[1:]}"
-        position = positions.of_table(result.axis.number, result.entry, *([0] * result.entry.count("[")))
-        velocity_limit = demand.of(demand.velocity, name, math.inf)
-        acceleration_limit = demand.of(demand.acceleration, name, math.inf)
-        if result.feed and len(result.slopes):
-            findings.add("AXC-DYNAMICS", *position, f"{size} {_asks(result)}.")
-            own = demand.of(demand.feed, name, 0.0)
-            if own + result.added_velocity > velocity_limit:
-                message = (
-                    f"{size} adds {rate(result.added_velocity)} {unit}/s to the {own:g} {unit}/s of {name}: that is "
-                    f"above its {velocity_limit:g} {unit}/s."
-                )
-                findings.add("AXC-DYNAMICS-VELOCITY", *position, message)
-            if result.added_acceleration > acceleration_limit:
-                at = f"{result.kinks_at[result.sharpest]:g} {symbol(result.over.unit)}"
-                message = (
-                    f"The kink at {at} of {result.name} asks {name} for {rate(result.added_acceleration)} {unit}/s² "
-                    f"within a cycle, above its {acceleration_limit:g} {unit}/s²."
-                )
-                findings.add("AXC-DYNAMICS-KINK", *position, message)
-        for what, jump, cycles, velocity, acceleration in (
-            ("Switching", result.jump, result.jump_cycles, result.jump_velocity, result.jump_acceleration),
-            (
-                "A reversal on",
-                result.reversal,
-                result.reversal_cycles,
-                result.reversal_velocity,
-                result.reversal_acceleration,
-            ),
-        ):
-            above = [
-                f"{rate(value)} {per}, above its {limit:g} {per}"
-                for value, limit, per in (
-                    (velocity, velocity_limit, f"{unit}/s"),
-                    (acceleration, acceleration_limit, f"{unit}/s²"),
-                )
-                if value > limit
-            ]
-            if above:
-                over = f"over {cycles} cycles" if cycles > 1 else "at once"
-                factor, small = shown(result.axis.unit)
-                moved = f"{factor * jump:.1f} {small}"
-                message = f"{what} {result.name} moves {name} by up to {moved} {over}: {', and '.join(above)}."
-                findings.add("AXC-DYNAMICS-JUMP", *position, message)
+        position = positions.of_table(result.axis.number, result.entry)
+        for code, message in _said(result, demand):
+            findings.add(code, *position, message)
     return results
+
+
+def _said(result: DynamicsResult, demand: Demand) -> Iterator[tuple[str, str]]:
+    """Yield code and sentence of each finding."""
+    unit, name, begin = symbol(result.axis.unit), result.axis.name, sentence(result.name)
+    velocity_limit = demand.of(demand.velocity, name, math.inf)
+    acceleration_limit = demand.of(demand.acceleration, name, math.inf)
+    if result.feed and len(result.slopes):
+        yield "AXC-DYNAMICS", f"{begin} {_asks(result)}."
+        own = demand.of(demand.feed, name, 0.0)
+        if own + result.added_velocity > velocity_limit:
+            yield (
+                "AXC-DYNAMICS-VELOCITY",
+                f"{begin} adds {rate(result.added_velocity)} {unit}/s to the {own:g} {unit}/s of {name}: that is "
+                f"above its {velocity_limit:g} {unit}/s.",
+            )
+        if result.added_acceleration > acceleration_limit:
+            yield (
+                "AXC-DYNAMICS-KINK",
+                f"The kink at {result.sharpest_at:g} {symbol(result.over.unit)} of {result.name} asks {name} for "
+                f"{rate(result.added_acceleration)} {unit}/s² within a cycle, above its "
+                f"{acceleration_limit:g} {unit}/s².",
+            )
+    for what, ramp in (("Switching", result.jump), ("A reversal on", result.reversal)):
+        above = [
+            f"{rate(value)} {per}, above its {limit:g} {per}"
+            for value, limit, per in (
+                (ramp.velocity, velocity_limit, f"{unit}/s"),
+                (ramp.acceleration, acceleration_limit, f"{unit}/s²"),
+            )
+            if value > limit
+        ]
+        if above:
+            over = f"over {ramp.cycles} cycles" if ramp.cycles > 1 else "at once"
+            factor, small = shown(result.axis.unit)
+            moved = f"{factor * ramp.size:.1f} {small}"
+            message = f"{what} {result.name} moves {name} by up to {moved} {over}: {', and '.join(above)}."
+            yield "AXC-DYNAMICS-JUMP", message
 
 
 def _asks(result: DynamicsResult) -> str:
     unit, over = symbol(result.axis.unit), symbol(result.over.unit)
-    low, high = result.intervals[result.steepest]
+    low, high = result.x[result.steepest : result.steepest + 2]
     factor, small = shown(result.axis.unit)
-    slope = factor * abs(result.slopes[result.steepest])
-    at = f"{result.kinks_at[result.sharpest]:g} {over}"
     return (
-        f"adds up to {rate(result.added_velocity)} {unit}/s at {result.feed:g} {over}/s ({slope:.3g} "
-        f"{small}/{over} at {low:g} … {high:g} {over}) and, at the kink at {at}, "
+        f"adds up to {rate(result.added_velocity)} {unit}/s at {result.feed:g} {over}/s ({factor * result.slope:.3g} "
+        f"{small}/{over} at {low:g} … {high:g} {over}) and, at the kink at {result.sharpest_at:g} {over}, "
         f"{rate(result.added_acceleration)} {unit}/s² within a cycle; its curvature without kinks would add "
         f"{rate(result.smooth_acceleration)} {unit}/s²"
     )

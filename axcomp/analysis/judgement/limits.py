@@ -6,17 +6,19 @@ kernel's, at the positions for which there are records, the corners of the work 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from ...kernel.record import zeros
-from ...kernel.volumetric_model import correction_at
+import numpy as np
+
+from ...engine.motion import Array
+from ...engine.tcp_model import TcpModel
 from ...lists.findings import Findings
 from ...model.machine import Axis, Machine
-from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
-from ...runtime.compile import compile_tables
+from ...model.volumetric import LETTERS, LINEAR, Volumetric
 from .positions import Positions
 
 POSITIONS_MAX = 1000
@@ -27,19 +29,9 @@ NEAR = 0.8
 
 @dataclass(frozen=True)
 class LargestCorrection:
-    """The largest correction that a volumetric compensation makes to an axis.
+    """The largest correction (mm, with its sign) that the volumetric compensation ``index`` makes to an axis.
 
-    Attributes
-    ----------
-    index : int
-        Of the compensation.
-    axis : Axis
-    correction : float
-        mm, with its sign.
-    position : dict of str to float
-        Where, by the name of the axis, mm or °.
-    tool_length : float
-        mm.
+    ``position``: where, by the name of the axis, mm or °; with a ``tool_length`` in mm.
     """
 
     index: int
@@ -56,12 +48,11 @@ class LargestCorrection:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the figures for JSON."""
-        limit = self.axis.volumetric_limit
         return {
             "volumetric": self.index,
             "axis": self.axis.name,
             "correction": self.correction,
-            "limit": limit,
+            "limit": self.axis.volumetric_limit,
             "position": self.position,
             "tool_length": self.tool_length,
         }
@@ -70,66 +61,37 @@ class LargestCorrection:
 def largest_corrections(machine: Machine, tool_length: float = 0.0) -> Iterator[LargestCorrection]:
     """Yield the largest correction of each axis by each volumetric compensation, gantry slaves included."""
     for volumetric in machine.volumetric:
-        names = {letter: machine.axes[machine.index_of(number)].name for letter, number in volumetric.axes}
-        letters = {number: letter for letter, number in volumetric.axes}
-        best: dict[str, tuple[float, tuple[float, ...]]] = {}
-        for position, correction in _corrections(machine, volumetric, tool_length):
-            for letter, value in zip(LINEAR, correction, strict=True):
-                if letter not in best or abs(value) > abs(best[letter][0]):
-                    best[letter] = (value, position)
-        for number in sorted(machine.corrected_by(volumetric), key=machine.index_of):
-            axis = machine.axes[machine.index_of(number)]
-            leader = number if number in letters else axis.gantry_master
-            letter = "" if leader is None else letters.get(leader, "")
-            if letter in best and letter not in volumetric.set_to_zero:
-                value, position = best[letter]
-                where = {names[a]: p for a, p in zip(LETTERS, position, strict=True) if a in names}
-                sign = -1.0 if letter in volumetric.negate else 1.0
-                yield LargestCorrection(volumetric.index, axis, sign * value, where, tool_length)
+        names = {letter: machine.numbered(number).name for letter, number in volumetric.axes}
+        positions = np.array(list(product(*_sides(machine, volumetric))))
+        model = TcpModel(volumetric)
+        lengths = np.full(len(positions), tool_length)
+        corrections = model.corrections(positions, lengths)
+        for index, letter in machine.members(volumetric).items():
+            if letter in LINEAR and volumetric.sign(letter):
+                found = corrections[:, LINEAR.index(letter)]
+                if not np.isnan(found).all():
+                    worst = int(np.nanargmax(np.abs(found)))
+                    where = {names[a]: p for a, p in zip(LETTERS, positions[worst].tolist(), strict=True) if a in names}
+                    value = volumetric.sign(letter) * float(found[worst])
+                    yield LargestCorrection(volumetric.index, machine.axes[index], value, where, tool_length)
 
 
-def _corrections(
-    machine: Machine, volumetric: Volumetric, tool_length: float
-) -> Iterator[tuple[tuple[float, ...], list[float]]]:
-    """Yield positions of the six axes and the corrections of X, Y and Z there."""
-    axes = tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes)
-    tables, pool = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
-    table = tables.volumetric[0]
-    for position in product(*_sides(machine, volumetric)):
-        correction = zeros(len(LINEAR))
-        if correction_at(pool, table, list(position), tool_length, [0] * len(ERRORS), correction):
-            yield position, correction
-
-
-def _sides(machine: Machine, volumetric: Volumetric) -> list[list[float]]:
+def _sides(machine: Machine, volumetric: Volumetric) -> list[Array]:
     """Return positions for each letter: those of records, thinned until their combinations are few enough."""
-    numbers = dict(volumetric.axes)
-    places: dict[int, set[float]] = {}
-    # A compensation of the rotary axes may have no table over X, Y and Z: the others tell how far these go.
-    for one in machine.volumetric:
-        for table in one.errors:
-            for column, letter in enumerate(table.arguments):
-                places.setdefault(dict(one.axes)[letter], set()).update(node[column] for node in table.nodes)
+    numbers, nodes = dict(volumetric.axes), machine.error_nodes()
     own = {letter for table in volumetric.errors for letter in table.arguments}
     sides = []
     for letter in LETTERS:
-        found = sorted(places.get(numbers.get(letter, 0), {0.0}))
-        sides.append(found if letter in own else sorted({found[0], found[-1]}))
-    while _count(sides) > POSITIONS_MAX:
+        found = np.array(nodes.get(numbers.get(letter, 0), [0.0]))
+        sides.append(found if letter in own else np.unique(found[[0, -1]]))
+    while math.prod(map(len, sides)) > POSITIONS_MAX:
         longest = max(range(len(sides)), key=lambda k: len(sides[k]))
         count = len(sides[longest])
         if count <= 2:
             break
         wanted = max(2, int(0.7 * count))
-        sides[longest] = [sides[longest][round(i * (count - 1) / (wanted - 1))] for i in range(wanted)]
+        sides[longest] = sides[longest][np.linspace(0, count - 1, wanted).round().astype(int)]
     return sides
-
-
-def _count(sides: list[list[float]]) -> int:
-    count = 1
-    for side in sides:
-        count *= len(side)
-    return count
 
 
 def judge_limits(

@@ -15,13 +15,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ...engine.motion import Array
-from ...kinds import Tables, tables_of
+from ...kinds import tables_of
 from ...lists.findings import Findings
 from ...model.curve import Curve
 from ...model.grid import Grid
 from ...model.machine import Machine
 from ...model.quantity import Quantity
-from .judging import JUDGED_LEAST
+from .judgement import JUDGED_LEAST
 from .positions import Positions
 
 Indices = npt.NDArray[np.intp]
@@ -59,17 +59,10 @@ class Spikes(NamedTuple):
 
 
 def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
-    """Return how far each point of a table is off its neighbours.
+    """Return how far each point x (n,), ascending, of a table with values y (n, …) is off its neighbours.
 
-    Parameters
-    ----------
-    x : array, shape (n,)
-        Positions, ascending.
-    y : array, shape (n, ...)
-        Values.
-    period : float or None
-        The table repeats after it, so that the first and the last points have neighbours on both sides; ``x`` then
-        holds no point twice. None: the first two and the last two points are not judged.
+    With a ``period`` the first and the last points have neighbours on both sides, and ``x`` holds no point twice;
+    without one the first two and the last two points are not judged.
     """
     if period is not None:
         x = np.concatenate([x[-2:] - period, x, x[:2] + period])
@@ -78,11 +71,12 @@ def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
     distance, score = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
     at = np.arange(2, n - 2)
     if n >= JUDGED_LEAST:
-        lines = np.stack(
-            [y[at] - _line(x, y, a, b, at) for a, b in ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))]
-        )
-        agree = np.abs(np.sign(lines).sum(axis=0)) == len(lines)
-        score[at] = np.where(agree, np.abs(lines).min(axis=0), 0.0)
+        pairs = ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))
+        lines = np.stack([y[at] - _line(x, y, a, b, at) for a, b in pairs])
+        size = np.abs(lines)
+        # All three see an outlier as it is; beside one, the lines that run through it see it and the third does not.
+        agree = (np.abs(np.sign(lines).sum(axis=0)) == len(lines)) & (size.min(axis=0) >= size.max(axis=0) / 4.0)
+        score[at] = np.where(agree, size.min(axis=0), 0.0)
         distance[at] = lines[0]
     known = np.abs(distance[~np.isnan(distance)])
     ordinary = max(SIGMA_OF_MEDIAN * float(np.median(known)) if known.size else 0.0, RESOLUTION)
@@ -92,7 +86,7 @@ def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
 
 
 def _line(x: Array, y: Array, a: Indices, b: Indices, at: Indices) -> Array:
-    """Return the values at the places ``at`` of the straight lines through the points ``a`` and ``b``."""
+    """Return the values at the points ``at`` of the straight lines through the points ``a`` and ``b``."""
     share = ((x[at] - x[a]) / (x[b] - x[a])).reshape(-1, *(1,) * (y.ndim - 1))
     value: Array = y[a] + share * (y[b] - y[a])
     return value
@@ -101,23 +95,18 @@ def _line(x: Array, y: Array, a: Indices, b: Indices, at: Indices) -> Array:
 def judge_outliers(machine: Machine, positions: Positions, findings: Findings) -> None:
     """Note the outliers of all tables over positions; values are said as they stand in the list."""
     for tables in tables_of(machine):
+        number = tables.axis.number
         for curve in tables.curves:
             for index, distance, ordinary in _of_curve(curve):
                 at = f"{curve.x[index]:g} {curve.over.unit}"
                 message = _message(curve.y[index], at, distance, ordinary, curve.of, tables.named(curve))
-                findings.add("AXC-OUTLIER", *positions.of_table(tables.axis.number, curve.entry, index), message)
+                findings.add("AXC-OUTLIER", *positions.of_table(number, curve.entry, index), message)
         for grid in tables.grids:
-            _judge_grid(tables, grid, positions, findings)
-
-
-def _judge_grid(tables: Tables, grid: Grid, positions: Positions, findings: Findings) -> None:
-    for row, column, distance, ordinary in _of_grid(grid):
-        at = ", ".join(
-            f"{over.axis} = {position:g} {over.unit}"
-            for over, position in zip(grid.over, (grid.x[column], grid.y[row]), strict=True)
-        )
-        message = _message(grid.values[row][column], at, distance, ordinary, grid.of, tables.name)
-        findings.add("AXC-OUTLIER", *positions.of_table(tables.axis.number, grid.entry, row, column), message)
+            for row, column, distance, ordinary in _of_grid(grid):
+                sides = zip(grid.over, (grid.x[column], grid.y[row]), strict=True)
+                at = ", ".join(f"{over.axis} = {position:g} {over.unit}" for over, position in sides)
+                message = _message(grid.values[row][column], at, distance, ordinary, grid.of, tables.name)
+                findings.add("AXC-OUTLIER", *positions.of_table(number, grid.entry, row, column), message)
 
 
 def _message(value: float, at: str, distance: float, ordinary: float, of: Quantity, name: str) -> str:

@@ -7,22 +7,21 @@ from ...lists import Document, Position, Reading
 from ...lists.catalogue import parameter
 
 
-class Positions:
-    """Finds entries of a machine's lists.
+def sentence(text: str) -> str:
+    """Return a text with a capital at its beginning."""
+    return f"{text[:1].upper()}{text[1:]}"
 
-    Parameters
-    ----------
-    reading : Reading or None
-        None: the machine does not come from lists, and every position has file "".
-    """
+
+class Positions:
+    """Finds entries of a machine's lists; without a reading every position has file ""."""
 
     def __init__(self, reading: Reading | None) -> None:
         self._reading = reading
 
     def of_table(self, axis: int, name: str, *indices: int) -> Position:
-        """Return the position of an entry in the compensation list of an axis, else of the first one of its table."""
+        """Return the position of an entry in the compensation list of an axis; without indices of the first."""
         document = None if self._reading is None else self._reading.compensation_list(axis)
-        return self._position(document, ListKind.COMPENSATION, name, indices)
+        return self._position(document, ListKind.COMPENSATION, name, indices or (0,) * name.count("["))
 
     def of_axis(self, axis: int, name: str) -> Position:
         """Return the position of an entry in the axis list of an axis."""

@@ -25,16 +25,8 @@ STEP_LEAST = 1e-3
 class Seam(NamedTuple):
     """What happens where a round axis begins again.
 
-    Attributes
-    ----------
-    at : float
-        Where the gap, or the step, begins, mm or °.
-    gap : float
-        Its width; 0: a step.
-    change : float
-        Of what is added, over the gap, mm or °.
-    ratio : float
-        Slope over the gap divided by the steepest one elsewhere; infinite for a step and where the table is flat.
+    The gap, or the step where its width is 0, begins at ``at``, mm or °; ``change`` is that of what is added over it,
+    mm or °. ``ratio``: slope over the gap by the steepest one elsewhere; infinite for a step and in a flat table.
     """
 
     at: float
@@ -49,15 +41,7 @@ class Seam(NamedTuple):
 
 
 def seam_of(curve: Curve, modulo: ModuloRange | None) -> Seam | None:
-    """Return the seam of what a table adds, None if the position it is looked up at does not begin again.
-
-    Parameters
-    ----------
-    curve : Curve
-        The table.
-    modulo : ModuloRange or None
-        Of the axis whose position it is looked up at.
-    """
+    """Return the seam of what a table adds, None if its position does not begin again; ``modulo``: of that axis."""
     added = curve.added()
     if curve.period is not None:
         gap = curve.period - curve.span

@@ -20,7 +20,8 @@ from ...lists.findings import Findings
 from ...measurement.iso230 import Iso230Result, evaluate
 from ...measurement.positioning import Positioning
 from ...model.machine import Machine
-from .positions import Positions
+from ...model.quantity import symbol
+from .positions import Positions, sentence
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -116,22 +117,29 @@ class SignResult:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the mean deviations without the compensation and as written; return the axes."""
-        from .plots import plot_sign
+        from ...plot.style import DOWN, UP, labelled, new_figure
 
-        return plot_sign(self, ax)
+        ax = new_figure().add_subplot() if ax is None else ax
+        for name, style, words in ((WITHOUT, "--", "without"), (WRITTEN, "-", "with the table")):
+            evaluation = self.evaluations[name]
+            for arrow, mean, colour in (("↑", evaluation.mean_up, UP), ("↓", evaluation.mean_down, DOWN)):
+                known = ~np.isnan(mean)
+                if known.any():
+                    points = (evaluation.positions[known], mean[known])
+                    ax.plot(*points, style, marker="o", ms=3.5, color=colour, label=f"{words} {arrow}")
+        ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+        ax.legend(ncols=2, fontsize=10)
+        unit, position = evaluation.unit, symbol(evaluation.position_unit)
+        figures = f"{self.symbol} {self.error(WITHOUT):.1f} → {self.error(WRITTEN):.1f} {unit}"
+        title = f"{sentence(self.name)}: {figures}"
+        return labelled(ax, title, f"target position [{position}]", f"deviation, actual − target [{unit}]")
 
 
 def sign_of(machine: Machine, measurement: Positioning, axis: str, over: str) -> SignResult:
     """Return what the table of an axis does to the error that was measured without it.
 
-    Parameters
-    ----------
-    machine : Machine
-        Whose table.
-    measurement : Positioning
-        Deviations of ``axis`` at targets of ``over``, the compensation off.
-    axis, over : str
-        Names; the same for a leadscrew table, else it is the cross table of ``axis`` over ``over``.
+    ``measurement``: deviations of ``axis`` at targets of ``over``, the compensation off. Both are the same for a
+    leadscrew table, else it is the cross table of ``axis`` over ``over``.
 
     Raises
     ------

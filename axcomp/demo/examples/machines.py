@@ -18,27 +18,8 @@ from .five_axis import five_axis
 X, Y, Z, C = 1, 2, 3, 6
 """Logical axis numbers."""
 
-VELOCITIES = (
-    0.1,
-    0.2,
-    0.5,
-    1.0,
-    2.0,
-    3.0,
-    4.0,
-    5.0,
-    6.0,
-    8.0,
-    10.0,
-    15.0,
-    20.0,
-    50.0,
-    100.0,
-    200.0,
-    300.0,
-    400.0,
-    500.0,
-)
+_SLOW = (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+VELOCITIES = (*_SLOW, 15.0, 20.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0)
 """Of the friction measurement, mm/s or °/s; the drives' friction is least between 5 and 10."""
 
 
@@ -111,11 +92,7 @@ def rotary_table(plant: Plant) -> Machine:
     return Machine((c,))
 
 
-MACHINES: dict[str, Callable[[Plant], Machine]] = {
-    "three_axis": three_axis,
-    "rotary_table": rotary_table,
-    "five_axis": five_axis,
-}
+MACHINES: dict[str, Callable[[Plant], Machine]] = {f.__name__: f for f in (three_axis, rotary_table, five_axis)}
 """The models whose lists are measured, by the name of their folder."""
 
 
@@ -163,7 +140,7 @@ def _friction(plant: Plant, name: str) -> Friction:
 
 
 def _crosstalk_over_xz(plant: Plant) -> Crosstalk:
-    """Y while X accelerates, at three places of X and of Z each."""
+    """Y while X accelerates, at three positions of X and of Z each."""
     acceleration = 2500.0
 
     def test(x: float, z: float) -> CrosstalkTest:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -33,10 +33,7 @@ def rotary_table() -> Trajectory:
     course.move({"C": 383.0}, Limits(240.0, 2400.0, 6e4))
     course.dwell(0.02)
     course.move({"C": 317.0}, Limits(300.0, 2400.0, 6e4))
-    inputs = _inputs(course)
-    for name in ("C.setpoint", "C.actual_position"):
-        inputs[name] = np.mod(inputs[name], 360.0)
-    return inputs
+    return _inputs(course, folded=("C",))
 
 
 def manual_examples() -> Trajectory:
@@ -60,12 +57,29 @@ def five_axis() -> Trajectory:
     on = course.dwell(0.05)
     course.dwell(0.05)
     course.move({"X": -12.0, "Y": 41.0, "Z": -131.0, "B": -14.0, "C": 342.0}, limits)
-    inputs = _inputs(course)
-    for name in ("C.setpoint", "C.actual_position"):
-        inputs[name] = np.mod(inputs[name], 360.0)
+    inputs = _inputs(course, folded=("C",))
     inputs["tool_length"] = np.full(CYCLES, 120.0)
     inputs["volumetric[1].enable"] = np.ones(CYCLES)
     inputs["volumetric[1].enable"][off:on] = 0.0
+    return inputs
+
+
+def warm_axis() -> Trajectory:
+    """X and Y forth and back; Y turns again within its reversal. X gets warmer, once as it starts to move."""
+    limits = Limits(350.0, 4000.0, 2e5)
+    course = Course({"X": 100.0, "Y": 40.0}, CYCLE_TIME)
+    course.dwell(0.03)
+    course.move({"X": 150.0, "Y": 62.0}, limits)
+    warmer = course.dwell(0.05)
+    course.dwell(0.04)
+    course.move({"X": 118.0}, limits)
+    for target in (61.98, 62.0, 61.98):
+        grown = course.move({"Y": target}, Limits(10.0, 4000.0, 4e6)) - 6
+    course.move({"X": 139.0, "Y": 30.0}, limits)
+    inputs = _inputs(course)
+    at = np.arange(CYCLES)
+    inputs["X.temperature.offset"] = np.where(at < warmer, 0.0015, 0.004)
+    inputs["X.temperature.coefficient"] = np.where(at < grown, 12e-6, 23.5e-6)
     return inputs
 
 
@@ -74,19 +88,24 @@ TRAJECTORIES: Mapping[str, Callable[[], Trajectory]] = {
     "rotary_table": rotary_table,
     "five_axis": five_axis,
     "manual_examples": manual_examples,
+    "warm_axis": warm_axis,
 }
 """By the name of the model's folder."""
 
 
-def _inputs(course: Course) -> Trajectory:
-    """Return the inputs of all axes for ``CYCLES`` cycles; the drives are taken to follow at once."""
+def _inputs(course: Course, folded: Sequence[str] = ()) -> Trajectory:
+    """Return the inputs of all axes for ``CYCLES`` cycles; the drives are taken to follow at once.
+
+    ``folded``: axes whose positions lie within 0 … 360°.
+    """
     if course.cycles > CYCLES:
         raise ValueError(f"the motion takes {course.cycles} cycles")
     course.dwell((CYCLES - course.cycles) * CYCLE_TIME)
     inputs: Trajectory = {"time": np.arange(CYCLES, dtype=np.float64) * CYCLE_TIME}
     for name, commands in course.setpoints().items():
-        inputs[f"{name}.setpoint"] = commands.position
+        position = np.mod(commands.position, 360.0) if name in folded else commands.position
+        inputs[f"{name}.setpoint"] = position
         inputs[f"{name}.velocity"] = commands.velocity
         inputs[f"{name}.acceleration"] = commands.acceleration
-        inputs[f"{name}.actual_position"] = commands.position
+        inputs[f"{name}.actual_position"] = position
     return inputs

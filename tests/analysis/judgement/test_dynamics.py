@@ -39,9 +39,9 @@ def test_both_directions_count_and_a_reversal_is_their_difference() -> None:
     machine = leadscrew_machine((0.0, 10.0), (0.0, 0.001), negative=(0.0, 0.003))
     [result] = dynamics_of(machine, FEED)
     assert np.abs(result.slopes).tolist() == pytest.approx([3e-4])
-    assert result.reversal == pytest.approx(0.002)
-    assert result.reversal_velocity == pytest.approx(2.0)
-    assert result.reversal_acceleration == pytest.approx(2000.0)
+    assert result.reversal.size == pytest.approx(0.002)
+    assert result.reversal.velocity == pytest.approx(2.0)
+    assert result.reversal.acceleration == pytest.approx(2000.0)
 
 
 def test_a_table_that_repeats_has_a_kink_at_its_seam() -> None:
@@ -76,8 +76,8 @@ def test_switching_moves_the_axis_as_fast_as_the_engine_does() -> None:
     enable = np.arange(40) > 5
     added = Engine(machine).run({"X.cross.enable": enable, "Y.setpoint": np.zeros(40)})["X.cross.correction"]
     assert added[-1] == pytest.approx(0.02)
-    assert np.abs(np.diff(added)).max() / 1e-3 == pytest.approx(result.jump_velocity)
-    assert np.abs(np.diff(added, 2)).max() / 1e-6 == pytest.approx(result.jump_acceleration)
+    assert np.abs(np.diff(added)).max() / 1e-3 == pytest.approx(result.jump.velocity)
+    assert np.abs(np.diff(added, 2)).max() / 1e-6 == pytest.approx(result.jump.acceleration)
 
 
 def test_what_is_beyond_the_limits_is_a_warning_with_the_figures() -> None:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from judging import codes, cross_machine, judge, leadscrew_machine, plane_machine, table_of_c
 
 from axcomp.analysis.judgement.outliers import spikes
+from axcomp.demo.examples.trajectories import TRAJECTORIES
 from axcomp.lists import read_machine, write_machine
 from axcomp.model.companions import models
 
@@ -112,6 +113,6 @@ def test_values_are_named_as_they_stand_in_a_leadscrew_list() -> None:
     assert finding.parameter == "kw.ssfk.table[5].pos"
 
 
-@pytest.mark.parametrize("model", ["three_axis", "rotary_table", "five_axis", "manual_examples"])
+@pytest.mark.parametrize("model", sorted(TRAJECTORIES))
 def test_the_examples_have_nothing_to_be_judged(model: str) -> None:
     assert codes(read_machine(models() / model).machine, models() / model) == []

@@ -13,6 +13,7 @@ import pytest
 from host_program import ERROR, OK, Answer, Program, bits
 
 from axcomp.bench.machines import machine_of
+from axcomp.interface.slot import Slot, slot_in
 from axcomp.interface.variable import BLOCK
 from axcomp.interface.variables import AXIS_DECLARATIONS, OF_MACHINE
 from axcomp.model.machine import Machine
@@ -28,6 +29,12 @@ INPUTS = [d for d in AXIS_DECLARATIONS if d.causality == "input" and d.kind != "
 OUTPUTS = [d for d in AXIS_DECLARATIONS if d.causality == "output" and d.kind != "volumetric"]
 LETTERS = {float: "r", int: "i", bool: "b"}
 SIZES = [0.0, 0.001, 0.001, 0.001, 0.00100005, 0.0003, 0.0007, 0.0123, 0.001 / 3, 5e-324]
+
+
+def slot_at(record: Any, path: str) -> Slot:
+    slot = slot_in(record, path)
+    assert slot is not None
+    return slot
 
 
 class Expected:
@@ -187,7 +194,7 @@ class Walk:
         legal = it.phase in ("instantiated", "init", "step")
         self.say(f"set {slot} {LETTERS[type(declared.start)]} {reference} {word}", OK if legal else ERROR)
         if legal:
-            setattr(it.runtime.inputs.axis[axis], declared.field, value)
+            slot_at(it.runtime.inputs.axis[axis], declared.field).set(value)
 
     def cycle_time(self, slot: int, it: Expected) -> None:
         """Set the parameter: before the steps, and to something possible."""
@@ -208,7 +215,7 @@ class Walk:
         legal = it.phase in ("init", "step", "terminated")
         if it.phase == "init":
             it.runtime.begin(it.runtime.start_time)
-        words = [self._word(getattr(it.runtime.outputs.axis[axis], d.field)) for axis, d in wanted]
+        words = [self._word(slot_at(it.runtime.outputs.axis[axis], d.field).get()) for axis, d in wanted]
         references = " ".join(str(BLOCK * (1 + axis) + d.identifier) for axis, d in wanted)
         letter = LETTERS[type(wanted[0][1].start)]
         self.say(f"get {slot} {letter} {references}", OK if legal else ERROR, words if legal else [])

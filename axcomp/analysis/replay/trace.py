@@ -1,0 +1,165 @@
+"""A trace recorded on a controller: its columns by the names of the engine's inputs and outputs, and in their units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...engine.engine import Engine
+from ...engine.motion import Array
+from ...engine.trajectory import TIME, InputError, InputFile, read_table
+from ...interface.variable import Variable
+from ...measurement.columns import ANGLES, LENGTHS
+from ...model.machine import CYCLE_TIME, CYCLE_TIME_MAX, Machine
+
+ON_TIME = 0.25
+"""Share of a cycle by which the instants of the rows may be off: stamps are rounded."""
+
+_BRACKET = re.compile(r"(.*?)\s*[\[(]([^\[\]()]*)[\])]\s*\Z")
+_UNIT = re.compile(r"\s*(\d+\.?\d*)?\s*([a-z]*)\s*(?:/\s*(s2|s|min))?\s*\Z")
+_BASES = {
+    "mm": {name: factor / LENGTHS["mm"] for name, factor in LENGTHS.items()},
+    "deg": {name: factor / ANGLES["deg"] for name, factor in ANGLES.items()},
+    "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6},
+}
+_PER = {"min": ("s", 1.0 / 60.0), "s": ("s", 1.0), "s2": ("s2", 1.0), None: ("", 1.0)}
+_PLAIN = str.maketrans({"µ": "u", "μ": "u", "²": "2", "^": None, ",": ".", "°": "deg"})
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """A recording: columns that the engine takes, and columns to compare with what it puts out.
+
+    Attributes
+    ----------
+    inputs : InputFile
+        In the engine's units; without instants if each row is a cycle.
+    outputs : mapping of str to array, shape (rows,)
+        In the engine's units.
+    lines : tuple of int
+        Of the file, where each row stands.
+    start, cycle_time : float
+        Instant of the first row, and the controller's cycle, s.
+    notes : tuple of str
+        How the file was taken, a sentence each.
+    """
+
+    inputs: InputFile
+    outputs: Mapping[str, Array]
+    lines: tuple[int, ...]
+    start: float
+    cycle_time: float
+    notes: tuple[str, ...]
+
+    @property
+    def at(self) -> Array:
+        """Return when each row was recorded, shape (rows,), in cycles since the first."""
+        if self.inputs.time is None:
+            return np.arange(len(self.lines), dtype=np.float64)
+        cycles = (self.inputs.time - self.inputs.time[0]) / self.cycle_time
+        at: Array = np.where(np.abs(cycles - np.round(cycles)) < 1e-6, np.round(cycles), cycles)
+        return at
+
+
+def read_trace(path: Path, machine: Machine, mapping: Sequence[str] = (), cycle_time: float | None = None) -> Trace:
+    """Read a trace; InputError, a sentence that names the file, if it or the mapping cannot be used.
+
+    Parameters
+    ----------
+    path : Path
+        A table with names in its first row, which may have units: ``SollX [mm]``.
+    machine : Machine
+        Says which inputs and outputs there are.
+    mapping : sequence of str
+        ``X.setpoint=SollX``, ``X.correction=KorrX[0.1um]``, ``time=T[ms]``; several with commas between. What is
+        called as in the engine needs none, and is left out by ``X.correction=``.
+    cycle_time : float or None
+        Of the controller, s; None: the distance of the rows.
+    """
+    if cycle_time is not None and not 0.0 < cycle_time < CYCLE_TIME_MAX:
+        raise InputError(f"--cycle-time: {cycle_time:g} s is no cycle time.")
+    table = read_table(path)
+    there = f"The columns are {', '.join(table.names)}."
+    known = {v.name: v for v in Engine(machine).variables} | {TIME: Variable(TIME, 0, "input", 0.0, "", "s")}
+    columns, used = {}, set()
+    for name, (title, unit) in _chosen(table.names, mapping, known).items():
+        factor = _factor(unit, known[name].unit)
+        if title not in table.names:
+            raise InputError(f"{path}: There is no column {title!r}. {there}")
+        if factor is None:
+            raise InputError(f"{path}: {unit!r} is no unit of {name}, which counts in {known[name].unit}, um, mdeg …")
+        used.add(title)
+        columns[name] = factor * table.numbers(table.names.index(title), name)
+    time = columns.pop(TIME, None)
+    outputs = {name: values for name, values in columns.items() if known[name].causality == "output"}
+    inputs = {name: values for name, values in columns.items() if name not in outputs}
+    if not outputs or not any(name.endswith(".setpoint") for name in inputs):
+        example = "X.setpoint=COLUMN,X.correction=COLUMN"
+        raise InputError(f"{path}: A setpoint and an output are needed at least: --map {example}. {there}")
+    if time is not None and (np.diff(time) <= 0.0).any():
+        line = table.lines[int(np.argmax(np.diff(time) <= 0.0)) + 1]
+        raise InputError(f"{path}:{line}: {TIME} must ascend from row to row; --map {TIME}= leaves it out.")
+    ignored = [title for title in table.names if title not in used]
+    notes = [f"Columns that are not used: {', '.join(ignored)}."] if ignored else []
+    needed = {name for output in outputs for name in known[output].depends_on or () if name.endswith(".setpoint")}
+    if absent := sorted(needed - inputs.keys()):
+        notes.append(f"Not in the trace, taken as 0, though outputs depend on it: {', '.join(absent)}.")
+    cycle, kept = _clock(time, cycle_time, notes)
+    start = 0.0 if time is None else float(time[0])
+    return Trace(InputFile(inputs, kept), outputs, table.lines, start, cycle, tuple(notes))
+
+
+def _chosen(titles: Sequence[str], mapping: Sequence[str], known: Mapping[str, Variable]) -> dict[str, tuple[str, str]]:
+    """Return title and unit of the column of each input and output."""
+    columns = {title: (title, "") for title in titles}
+    for title in titles:
+        if title not in known and (found := _BRACKET.match(title)):
+            columns[title] = (title, found[2])
+            columns.setdefault(found[1], columns[title])
+    chosen = {name: columns[name] for name in known if name in columns}
+    for word in filter(str.strip, ",".join(mapping).split(",")):
+        name, equals, column = (part.strip() for part in word.partition("="))
+        if not equals or name not in known:
+            quantities = ", ".join(known)
+            raise InputError(f"--map: “{word}” is no NAME=COLUMN; the names are {quantities}")
+        found = _BRACKET.match(column)
+        if found and column not in columns:
+            chosen[name] = (columns.get(found[1], (found[1], ""))[0], found[2])
+        elif column:
+            chosen[name] = columns.get(column, (column, ""))
+        else:
+            chosen.pop(name, None)
+    return chosen
+
+
+def _factor(written: str, unit: str) -> float | None:
+    """Return what a unit is worth in ``unit``: mm, 0.1um, deg/min, or a bare factor; None if it is none of it."""
+    found = _UNIT.match(written.translate(_PLAIN).lower())
+    base, _, per = unit.partition("/")
+    if found is None or not (base and found[2]):
+        return float(found[1] or 1.0) if found else None if base else 1.0
+    given, share = _PER[found[3]]
+    return (
+        float(found[1] or 1.0) * _BASES[base][found[2]] * share if found[2] in _BASES[base] and given == per else None
+    )
+
+
+def _clock(time: Array | None, wanted: float | None, notes: list[str]) -> tuple[float, Array | None]:
+    """Return the cycle time, and the instants unless each row is a cycle; add what there is to say."""
+    if time is None or len(time) < 2:
+        if wanted is None:
+            notes.append(f"No time is given: a row is taken for a cycle of {CYCLE_TIME:g} s.")
+        return wanted or CYCLE_TIME, None
+    steps = np.arange(len(time))
+    mean = float(f"{(time[-1] - time[0]) / (len(time) - 1):.9g}")
+    even = bool((np.abs(time - time[0] - mean * steps) <= ON_TIME * mean).all())
+    cycle = wanted or (mean if even else float(f"{np.median(np.diff(time)):.9g}"))
+    if (np.abs(time - time[0] - cycle * steps) <= ON_TIME * cycle).all():
+        return cycle, None
+    distance = f"{mean:g} s apart" if even else "not equally far apart"
+    notes.append(f"The rows are {distance}, a cycle takes {cycle:g} s: between rows the inputs are taken as linear.")
+    return cycle, time
