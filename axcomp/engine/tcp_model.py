@@ -69,19 +69,19 @@ class TcpModel:
     def corrections(self, places: Array, tool_lengths: Array, errors: Array | None = None) -> Array:
         """Return what X, Y and Z must move so that the tool tip is where it should be, (n, 3), mm.
 
-        ``errors``: (n, 72), as they are there; None: those that are known, where the machine then stands. Whether the
-        lists negate a correction or leave it out is not in it. nan where the position is singular.
+        ``errors`` (n, 72) are those at the places; without them the known ones count where the axes are moved to.
+        Whether the lists negate a correction or leave it out is not in it. nan where the position is singular.
         """
         found = np.full((len(places), len(LINEAR)), np.nan)
-        for row, place, tool_length in zip(range(len(places)), places.tolist(), tool_lengths.tolist(), strict=True):
+        given = [None] * len(places) if errors is None else errors.tolist()
+        for row, place, length, wrong in zip(found, places.tolist(), tool_lengths.tolist(), given, strict=True):
             correction = zeros(len(LINEAR))
-            if errors is None:
-                section = [0] * len(ERRORS)
-                solved = correction_at(self._pool, self._table, place, tool_length, section, correction)
+            if wrong is None:
+                usable = correction_at(self._pool, self._table, place, length, [0] * len(ERRORS), correction)
             else:
-                solved = correction_with(self._table, place, tool_length, errors[row].tolist(), correction)
-            if solved:
-                found[row] = correction
+                usable = correction_with(self._table, place, length, wrong, correction)
+            if usable:
+                row[:] = correction
         return found
 
     def derivatives(

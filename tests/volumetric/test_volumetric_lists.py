@@ -109,6 +109,14 @@ def test_describing_parameters_and_numbers_of_axes_come_from_the_files(read: Cal
     assert one.directions[4] == (0, 0.6, 0.8)
 
 
+def test_parameter_files_may_be_utf_16_with_decimal_commas(read: Callable[..., Reading], tmp_path: Path) -> None:
+    read(csv="X EXX\n0 1\n")
+    (tmp_path / "errors.csv").write_bytes("X;EXX // µm\r\n0;0,5\r\n100;-0,25\r\n".encode("utf-16"))
+    reading = read_machine(tmp_path)
+    assert reading.findings == ()
+    assert reading.machine.volumetric[0].errors == (ErrorTable("EXX", (0.5, -0.25), "X", ((0.0,), (100.0,))),)
+
+
 def test_etalon_and_csv_files_add_up(read: Callable[..., Reading]) -> None:
     lines = ["file[3] rotary.exc", "file_format[3] ETALON_EXCHANGE", "enable_splicing 1"]
     exc = "[HEADER]\nDate = -\n[EXC]\nGridpoints = {\n0 0.01\n90 0.02\n}\n[A0C]\nVALUE = 1e-5\n"

@@ -17,7 +17,7 @@ from ...kinds import tables_of
 from ...kinds.shown import ACCELERATION, POSITION
 from ...lists import Position
 from ...lists.findings import Findings
-from ...model.machine import Axis, AxisType, Machine
+from ...model.machine import Axis, Machine
 from ...model.quantity import symbol
 from ...model.volumetric import FULL_TURN, LETTERS, LINEAR, Volumetric, turn_of
 from .positions import Positions, sentence
@@ -139,13 +139,13 @@ def _of_volumetric(
         tables = [table for table in volumetric.errors if letter in table.arguments]
         axis = machine.numbered(number)
         nodes = [table.positions(letter) for table in tables]
-        if axis.type is not AxisType.TRANSLATORY:
-            nodes = [side for side in nodes if max(side) - min(side) < FULL_TURN]
+        # A table over a full turn of a rotary axis has no outside.
+        nodes = [own for own in nodes if letter in LINEAR or max(own) - min(own) < FULL_TURN]
         if number not in moved or not nodes:
             continue
         held = (max(map(min, nodes)), min(map(max, nodes)))
         used = moved[number] + volumetric.offsets[LETTERS.index(letter)] * (1.0 if letter in LINEAR else 180.0 / np.pi)
-        turn = turn_of(*held, None if axis.modulo is None else axis.modulo.length)
+        turn = None if letter in LINEAR else turn_of(*held, None if axis.modulo is None else axis.modulo.length)
         if turn is not None:
             used = turn[0] + np.mod(used - turn[0], turn[1])
         errors = " ".join([*(table.name for table in tables[:3]), *(["…"] if len(tables) > 3 else [])])
