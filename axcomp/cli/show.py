@@ -13,7 +13,7 @@ from pathlib import Path
 from ..kinds import KINDS
 from ..plot.content import VOLUMETRIC, Content, NotComparableError, Records
 from ..plot.contents import contents_of
-from ..plot.page import overview, page, shown
+from ..plot.pages import overview, page, shown
 from ..plot.style import save
 from .axis_type import add_axis_type
 from .lists import add_lists_command, failed, read_lists

@@ -20,7 +20,7 @@ from ..model.quantity import shown
 from ..plot.style import labelled
 from .creation import CannotCreateError
 from .driver import NEW_LIST, Fit, axis_numbers, bound, rounded
-from .hats import hats
+from .hat_functions import hats
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -21,7 +21,7 @@ from ..model.quantity import Quantity, shown
 from ..plot.style import labelled
 from .creation import CannotCreateError
 from .driver import ON_TOP, Fit, axis_numbers, rounded
-from .hats import hats
+from .hat_functions import hats
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..engine.motion import Array
 from ..model.volumetric import ERRORS, LETTERS, ROTARY
-from .hats import hats
+from .hat_functions import hats
 
 FULL_TURN = 360.0
 

@@ -17,7 +17,7 @@ from ..model.machine import Machine
 from ..runtime.compile import Compiled, compile_tables
 from .archive import BuildError, generation_date
 from .description import Description
-from .packed_lists import packed_lists
+from .packing import packed_lists
 
 NAME = "axcomp"
 """Name of the model, and of its file."""

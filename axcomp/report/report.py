@@ -25,7 +25,7 @@ from ..model.machine import CYCLE_TIME, AxisType, Machine
 from ..model.quantity import symbol
 from ..plot.content import Content, Records
 from ..plot.contents import contents_of
-from ..plot.page import document, navigation, overview, picture, remarks, section, table
+from ..plot.pages import document, html_table, navigation, overview, picture, remarks, section
 from ..plot.style import new_figure, printed
 from ..plot.terminal import figure as number
 
@@ -221,7 +221,7 @@ def _dynamics(report: Report) -> str:
         rows.append((one.name, f"{one.feed:g} {symbol(one.over.unit)}/s", slope, kink, curvature, switching, reversal))
     columns = ("table", "feed", "slope adds", "a kink adds", "curvature adds", "switching adds", "a reversal adds")
     pictures = "".join(_drawn(one.name, one.plot) for one in results if one.feed)
-    return table(Records(columns, rows)) + pictures if rows else ""
+    return html_table(Records(columns, rows)) + pictures if rows else ""
 
 
 def _coverage(report: Report) -> str:
@@ -270,8 +270,8 @@ def _evaluation(result: Iso230Result) -> str:
     target = f"target [{symbol(result.position_unit)}]"
     return f"""<section><h3>{escape(title)}</h3>
 {_drawn(title, result.plot, heading=False)}
-{table(Records(("ISO 230-2:2014", result.unit), figures))}{remarks(result.notes)}
-<details><summary>Targets</summary>{table(Records((target, *columns), rows))}</details></section>"""
+{html_table(Records(("ISO 230-2:2014", result.unit), figures))}{remarks(result.notes)}
+<details><summary>Targets</summary>{html_table(Records((target, *columns), rows))}</details></section>"""
 
 
 def _budget(report: Report) -> str:
@@ -285,14 +285,16 @@ def _budget(report: Report) -> str:
     ]
     if not rows:
         return "<p>Nothing is corrected along it.</p>"
-    return picture("Budget", budget_figure(budget)) + table(Records(("contribution", "largest", "rms", "unit"), rows))
+    return picture("Budget", budget_figure(budget)) + html_table(
+        Records(("contribution", "largest", "rms", "unit"), rows)
+    )
 
 
 def _tables(report: Report) -> str:
     if not report.contents:
         return "<p>No compensation is in force.</p>"
     sections = "\n".join(section(content, "h3") for content in report.contents)
-    return f"{table(overview(report.contents))}\n{sections}"
+    return f"{html_table(overview(report.contents))}\n{sections}"
 
 
 def _cost(report: Report) -> str:
@@ -300,7 +302,7 @@ def _cost(report: Report) -> str:
         return ""
     rows = [(one.name, f"{one.median:.2f} {one.unit}", f"{one.low:.2f} … {one.high:.2f}") for one in report.costs]
     intro = "<p>Of the engine in Python and over whole trajectories, on the computer that made this page.</p>"
-    return intro + table(Records(("what", "median", "least … greatest"), rows))
+    return intro + html_table(Records(("what", "median", "least … greatest"), rows))
 
 
 _CHAPTERS: tuple[tuple[str, str, Callable[[Report], str]], ...] = (
@@ -329,4 +331,4 @@ def _drawn(title: str, plot: Callable[[Axes], object], *, heading: bool = True) 
 
 def _text(columns: tuple[str, ...], rows: Sequence[Sequence[str]]) -> str:
     """Return a table of words, "" without rows."""
-    return table(Records(columns, rows), "text") if rows else ""
+    return html_table(Records(columns, rows), "text") if rows else ""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from ..fmu.archive import BuildError
-from ..fmu.packed_lists import FOLDER, packed_lists
+from ..fmu.packing import FOLDER, packed_lists
 from ..lists import read_machine
 from .journal import SUFFIX, Journal, keys_of
 from .list_variation import ListEntry, varied

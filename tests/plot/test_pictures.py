@@ -11,7 +11,7 @@ from shown_machines import MACHINE, MEASURED
 from axcomp.plot.content import Content
 from axcomp.plot.contents import contents_of
 from axcomp.plot.maps import Map
-from axcomp.plot.page import page, shown
+from axcomp.plot.pages import page, shown
 from axcomp.plot.style import png, printed
 
 CONTENTS = [*contents_of(MACHINE), *contents_of(MEASURED, kind="volumetric")]

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from ...engine.motion import Array
-from ...fit.hats import hats
+from ...fit.hat_functions import hats
 from ...kinds import tables_of
 from ...model.machine import AxisType
 from ...model.quantity import shown

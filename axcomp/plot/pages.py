@@ -34,7 +34,7 @@ def page(title: str, contents: Sequence[Content], notes: Sequence[str] = ()) -> 
     """Return a page with an overview and a section for each content."""
     sections = "\n".join(section(content) for content in contents)
     links = [(one.subject.name, one.subject.title) for one in contents]
-    return document(title, f"{remarks(notes)}\n{navigation(links)}\n{table(overview(contents))}\n{sections}")
+    return document(title, f"{remarks(notes)}\n{navigation(links)}\n{html_table(overview(contents))}\n{sections}")
 
 
 def document(title: str, body: str) -> str:
@@ -68,7 +68,7 @@ def section(content: Content, heading: str = "h2") -> str:
     shown = content.extract(ROWS_SHOWN)
     return f"""<section id="{escape(content.subject.name)}"><{heading}>{escape(title)}</{heading}>
 {picture(title, content.figure())}
-<details><summary>Numbers</summary>{table(shown)}</details></section>"""
+<details><summary>Numbers</summary>{html_table(shown)}</details></section>"""
 
 
 def picture(title: str, figure: Figure) -> str:
@@ -83,7 +83,7 @@ def overview(contents: Sequence[Content]) -> Records:
     return Records(("compensation", "points", "range", "values"), rows)
 
 
-def table(records: Records, kind: str = "") -> str:
+def html_table(records: Records, kind: str = "") -> str:
     """Return numbers as an HTML table that scrolls where it is too wide; ``kind``: its class, ``text`` or none."""
     head = "".join(f"<th>{escape(column)}</th>" for column in records.columns)
     rows = ("".join(f"<td>{escape(shown(cell))}</td>" for cell in row) for row in records.rows)
