@@ -10,9 +10,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .engine.engine import Engine, Result
+    from .engine import Engine, Result
     from .lists import read_machine, write_machine
-    from .model.machine import Machine
+    from .model import Machine
 
 __all__ = ["Engine", "Machine", "Result", "read_machine", "write_machine"]
 

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from axcomp.kinds import Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Plane
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
 
 
 def three_axes(scale: float = 1.0) -> Machine:

@@ -6,8 +6,7 @@ A change here is a change that others notice: it wants a reason, and an entry wh
 from __future__ import annotations
 
 from axcomp.kinds import Backlash, Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Plane, Temperature
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, ModuloRange, Volumetric
 
 # Findings
 

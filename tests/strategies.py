@@ -21,8 +21,7 @@ from axcomp.kinds import (
     Plane,
     Temperature,
 )
-from axcomp.model.delaunay import triangulate
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
+from axcomp.model import Axis, AxisType, Machine, ModuloRange, triangulate
 
 POSITION_MAX = 200_000.0
 """mm or °; the lists hold SGN32 in 0.1 µm."""

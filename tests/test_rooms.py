@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import os
 import subprocess
 import sys
@@ -65,3 +66,49 @@ def test_what_is_quick_loads_no_numerics(arguments: list[str], tmp_path: Path) -
     loaded = set(done.stderr.splitlines()[-1].split())
     assert "axcomp" in loaded
     assert not loaded & {"numpy", "scipy", "matplotlib", "pandas", "rich"}
+
+
+ROOMS = tuple(
+    ".".join(path.parent.relative_to(ROOT).parts)
+    for path in (ROOT / "axcomp").rglob("__init__.py")
+    if path.parent.name not in {"axcomp", "cli", "analysis"}
+)
+"""Every package with a face; commands are loaded by name, and analyses are rooms of their own."""
+ABOVE_ROOMS = {"axcomp.model.face"}
+"""What makes the faces stands behind none of them."""
+
+
+def imports(path: Path) -> Iterator[tuple[str, str]]:
+    """Yield module and name of what a file takes from the package, in absolute names."""
+    package = path.parent.relative_to(ROOT).parts
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom):
+            module = node.module or ""
+            if node.level:
+                module = ".".join((*package[: len(package) - node.level + 1], *filter(None, [module])))
+            if module.startswith("axcomp."):
+                yield from ((module, alias.name) for alias in node.names)
+
+
+def room_of(module: str) -> str:
+    return max((room for room in ROOMS if f"{module}.".startswith(f"{room}.")), key=len, default="")
+
+
+@pytest.mark.parametrize("folder", ["axcomp", "tests"])
+def test_rooms_and_tests_import_faces_and_not_the_modules_inside(folder: str) -> None:
+    inside = []
+    for path in sorted((ROOT / folder).rglob("*.py")):
+        own = room_of(".".join(path.relative_to(ROOT).with_suffix("").parts))
+        for module, name in imports(path):
+            room = room_of(module)
+            if room not in ("", own, module) and module not in ABOVE_ROOMS and not name.startswith("_"):
+                inside.append(f"{path.relative_to(ROOT)}: {module} {name}")
+    assert inside == []
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_has_a_face_and_what_it_offers_is_there(room: str) -> None:
+    face = importlib.import_module(room)
+    assert face.__doc__
+    assert len(set(face.__all__)) == len(face.__all__) > 0
+    assert [name for name in face.__all__ if getattr(face, name, None) is None] == []

@@ -1,1 +1,28 @@
 """What a cycle costs: the engine and the FMU, over machines of all sizes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..model.face import face
+
+if TYPE_CHECKING:
+    from .clock import Sample as Sample
+    from .engine import bench_engine as bench_engine
+    from .engine import bench_growth as bench_growth
+    from .engine import bench_lists as bench_lists
+    from .engine import bench_memory as bench_memory
+    from .fmu import bench_fmus as bench_fmus
+    from .machines import machine_of as machine_of
+    from .native_host import NativeHost as NativeHost
+    from .native_host import bench_native_host as bench_native_host
+    from .native_host import plan_of as plan_of
+else:
+    __all__, __getattr__, __dir__ = face(
+        __name__,
+        clock="Sample",
+        engine="bench_engine bench_growth bench_lists bench_memory",
+        fmu="bench_fmus",
+        machines="machine_of",
+        native_host="NativeHost bench_native_host plan_of",
+    )

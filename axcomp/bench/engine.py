@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine.engine import Engine
+from ..engine import Engine
 from ..lists import read_machine, write_machine
-from ..model.machine import Machine
-from ..native.library import SWITCH, compiled_kernel
-from ..runtime.runtime import Runtime
+from ..model import Machine
+from ..native import SWITCH, compiled_kernel
+from ..runtime import Runtime
 from .clock import Sample, sample
 from .machines import largest_machine, machine_of
 

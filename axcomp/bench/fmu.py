@@ -16,9 +16,8 @@ from typing import Any
 import fmpy
 from fmpy.fmi2 import FMU2Slave
 
-from ..fmu.native_package import package_native
-from ..fmu.package import package_axcomp
-from ..native.compiler import PLATFORMS, own_platform
+from ..fmu import package_axcomp, package_native
+from ..native import PLATFORMS, own_platform
 from .clock import Sample
 
 STEPS = 2000

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..kinds import Cross, Crosstalk, CrosstalkTest, Friction, Leadscrew, Plane
-from ..model.machine import AXES_MAX, Axis, Machine
+from ..model import AXES_MAX, Axis, Machine
 
 
 def machine_of(axes: int, points: int) -> Machine:

@@ -8,15 +8,12 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from ..fmu.native_package import IMAGE, SOURCES
-from ..interface.variable import Variable, with_causality
-from ..interface.variables import variables_of
+from ..fmu import IMAGE, SOURCES
+from ..interface import Variable, variables_of, with_causality
 from ..lists import read_machine
-from ..model.companions import fmu_sources, models
-from ..model.machine import CYCLE_TIME, Machine
-from ..native.compiler import PLATFORMS, compile_library, compile_program, compiler_of, own_platform
-from ..native.image import image_of
-from ..runtime.compile import compile_tables
+from ..model import CYCLE_TIME, Machine, fmu_sources, models
+from ..native import PLATFORMS, compile_library, compile_program, compiler_of, image_of, own_platform
+from ..runtime import compile_tables
 from .clock import Sample
 from .machines import machine_of
 

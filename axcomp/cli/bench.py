@@ -11,14 +11,11 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
-from ..bench.clock import Sample
-from ..bench.engine import bench_engine, bench_growth, bench_lists, bench_memory
-from ..bench.fmu import bench_fmus
-from ..bench.native_host import bench_native_host
-from ..fmu.archive import BuildError
+from ..bench import Sample, bench_engine, bench_fmus, bench_growth, bench_lists, bench_memory, bench_native_host
+from ..fmu import BuildError
 from ..lists import read_machine
-from ..model.companions import models
-from ..native.compiler import CompilerError, has_cross_compiler
+from ..model import models
+from ..native import CompilerError, has_cross_compiler
 
 EXAMPLE = """example:
   axcomp bench --quick

@@ -6,11 +6,21 @@ import argparse
 import json
 from pathlib import Path
 
-from ..analysis.budget.contributions import POINTS, Budget, budget_of, largest, rms
-from ..analysis.budget.propagation import COVERAGE, PLACES, TRIALS, TcpUncertainty, tcp_uncertainty
-from ..analysis.budget.uncertainty import read_uncertainties
-from ..engine.trajectory import read_input
-from ..model.machine import CYCLE_TIME
+from ..analysis.budget import (
+    COVERAGE,
+    PLACES,
+    POINTS,
+    TRIALS,
+    Budget,
+    TcpUncertainty,
+    budget_of,
+    largest,
+    read_uncertainties,
+    rms,
+    tcp_uncertainty,
+)
+from ..engine import read_input
+from ..model import CYCLE_TIME
 from .lists import add_lists_command, failed, read_lists
 
 ROWS = 15
@@ -74,8 +84,8 @@ def _do_budget(args: argparse.Namespace) -> int:
     except ValueError as error:
         return failed("budget", str(error))
     if args.plot is not None:
-        from ..analysis.budget.picture import budget_figure
-        from ..plot.style import save
+        from ..analysis.budget import budget_figure
+        from ..plot import save
 
         save(budget_figure(budget, uncertainty), args.plot)
     if args.format == "json":
@@ -87,7 +97,7 @@ def _do_budget(args: argparse.Namespace) -> int:
 
 
 def _print(budget: Budget, uncertainty: TcpUncertainty | None, rows: int) -> None:
-    from ..plot.terminal import console, figure, table
+    from ..plot import console, figure, table
 
     def cells(*values: float) -> list[str]:
         return [figure(value, 3) for value in values]

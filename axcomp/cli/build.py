@@ -7,15 +7,11 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..analysis.diagnosis.records import write_named_diagnoses
-from ..fmu.archive import BuildError
-from ..fmu.content import Built
-from ..fmu.native_package import NoCompilerError, package_native, write_image
-from ..fmu.package import package_axcomp
-from ..model.companions import machine_path, models
-from ..model.machine import CYCLE_TIME
-from ..native.compiler import PLATFORMS
-from ..plant.fmu import package_plant
+from ..analysis.diagnosis import write_named_diagnoses
+from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
+from ..model import CYCLE_TIME, machine_path, models
+from ..native import PLATFORMS
+from ..plant import package_plant
 from .axis_type import add_axis_type
 
 EXAMPLE = """\

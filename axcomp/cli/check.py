@@ -10,7 +10,7 @@ from typing import Any
 
 from ..analysis.judgement import Judgement
 from ..lists import Reading, Severity, read_machine
-from ..model.companions import machine_path
+from ..model import machine_path
 from .axis_type import add_axis_type
 from .judgement_options import add_judgement_options, evidence_of
 

@@ -9,13 +9,25 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..convert.formats import FORMATS, LISTS, Compared, compared, recognized, written
-from ..convert.machines import CONVERTED, dropped, machine_with, tables_of
-from ..convert.table import CompensationTable
-from ..convert.text import MAX_POINTS, CannotHoldError, FormatError, Options
+from ..convert import (
+    CONVERTED,
+    FORMATS,
+    LISTS,
+    MAX_POINTS,
+    CannotHoldError,
+    Compared,
+    CompensationTable,
+    FormatError,
+    Options,
+    compared,
+    dropped,
+    machine_with,
+    recognized,
+    tables_of,
+    written,
+)
 from ..kinds import KINDS
-from ..lists import machine_documents, read_machine, write_machine
-from ..lists.grammar import decode
+from ..lists import decode, machine_documents, read_machine, write_machine
 from .lists import add_lists_command, failed, read_lists
 
 _NAMES = (LISTS, *FORMATS)

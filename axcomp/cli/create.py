@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..fit import FITS, Creation, Fit, Options, create, fit_of
-from ..measurement.columns import MeasurementError
-from ..measurement.readings import joined
+from ..measurement import MeasurementError, joined
 
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -75,7 +74,7 @@ def _do_create(args: argparse.Namespace) -> int:
 
 
 def _print(creation: Creation, written: Sequence[Path]) -> None:
-    from ..plot.terminal import compared, console, table
+    from ..plot import compared, console, table
 
     out, report = console(), creation.report
     if report.rows:

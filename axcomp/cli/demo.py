@@ -6,8 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..model.companions import machine_path, models
-from ..model.machine import CYCLE_TIME
+from ..model import CYCLE_TIME, machine_path, models
 
 PICTURE = "demo.png"
 
@@ -48,9 +47,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_demo(args: argparse.Namespace) -> int:
-    from ..demo.evaluation import table
-    from ..demo.picture import draw
-    from ..demo.run import BuildError, DemoError, demonstrate
+    from ..demo import BuildError, DemoError, demonstrate, draw, table
 
     try:
         machine, results, note = demonstrate(args.machine or models() / "three_axis", args.output)

@@ -6,11 +6,10 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..analysis.diagnosis.files import Written, write_diagnoses
-from ..analysis.diagnosis.records import volumetric_lists
-from ..fmu.archive import BuildError
+from ..analysis.diagnosis import Written, volumetric_lists, write_diagnoses
+from ..fmu import BuildError
 from ..lists import Severity, read_machine
-from ..model.volumetric import COMPENSATIONS_MAX
+from ..model import COMPENSATIONS_MAX
 from .lists import add_lists_command, failed
 
 _EPILOG = """\

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..analysis.judgement import Evidence
-from ..model.machine import CYCLE_TIME, Machine
+from ..model import CYCLE_TIME, Machine
 
 if TYPE_CHECKING:
     from ..analysis.judgement import Demand
-    from ..measurement.positioning import Positioning
+    from ..measurement import Positioning
 
 SPEEDS = {"mm/min": 1 / 60, "m/min": 1e3 / 60, "mm/s": 1.0, "m/s": 1e3}
 SPEEDS |= {"deg/min": 1 / 60, "°/min": 1 / 60, "deg/s": 1.0, "°/s": 1.0, "rpm": 6.0}
@@ -56,8 +56,8 @@ def evidence_of(options: argparse.Namespace, machine: Machine) -> Evidence:
     given = None
     try:
         if options.input is not None:
-            from ..analysis.judgement.coverage import setpoints
-            from ..engine.trajectory import read_input
+            from ..analysis.judgement import setpoints
+            from ..engine import read_input
 
             found = read_input(options.input)
             setpoints(found.columns, machine)
@@ -72,8 +72,7 @@ def _measurements(
 ) -> tuple[list[tuple[Positioning, str, str]], list[Positioning]]:
     """Return the measurements that can be used, with their axes, and all that could be read."""
     from ..analysis.judgement import sign_of
-    from ..measurement.columns import MeasurementError
-    from ..measurement.positioning import read_positioning
+    from ..measurement import MeasurementError, read_positioning
 
     measurements, readings = [], []
     for file in options.measurement:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..lists import Reading, Severity, TypeName, read_machine
-from ..model.companions import machine_path
+from ..model import machine_path
 
 
 def add_lists_command(

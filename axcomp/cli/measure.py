@@ -9,12 +9,17 @@ import sys
 from dataclasses import fields
 from pathlib import Path
 
-from ..measurement.columns import MeasurementError
-from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
-from ..measurement.positioning import Positioning, read_positioning
-from ..measurement.readings import joined
-from ..measurement.uncertainty import Conditions
-from ..model.quantity import symbol
+from ..measurement import (
+    SYMBOLS,
+    Conditions,
+    Iso230Result,
+    MeasurementError,
+    Positioning,
+    evaluate,
+    joined,
+    read_positioning,
+)
+from ..model import symbol
 from .check import STATUS_MAX
 
 _EPILOG = """\
@@ -97,7 +102,7 @@ def _plot(results: list[Iso230Result], file: Path) -> None:
 
 
 def _print(result: Iso230Result) -> None:
-    from ..plot.terminal import console, figure, table
+    from ..plot import console, figure, table
 
     out = console()
     frame = result.table()

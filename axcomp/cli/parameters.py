@@ -6,9 +6,8 @@ import argparse
 import json
 from collections.abc import Iterable, Sequence
 
-from ..kinds.parameter import ListKind
-from ..lists.catalogue import CATALOGUE
-from ..lists.reference import HEADINGS, as_dict, cells
+from ..kinds import ListKind
+from ..lists import CATALOGUE, HEADINGS, as_dict, cells
 
 _EXAMPLE = """\
 example:

@@ -9,10 +9,9 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from ..analysis.replay.comparison import EXPLAINED, WITHIN, WITHIN_OTHER, Comparison, compare
-from ..analysis.replay.trace import read_trace
+from ..analysis.replay import EXPLAINED, WITHIN, WITHIN_OTHER, Comparison, compare, read_trace
 from ..lists import Severity, read_machine
-from ..model.companions import machine_path
+from ..model import machine_path
 
 _EPILOG = f"""\
 The trace has a row for each cycle (or a column time), names in its first row, and at least a setpoint and one output of
@@ -67,8 +66,8 @@ def _do_replay(args: argparse.Namespace) -> int:
         trace = read_trace(args.trace, reading.machine, args.map, args.cycle_time)
         comparisons, notices = compare(trace, reading.machine, _limits(args.within, trace.outputs), args.skip)
         if args.plot is not None:
-            from ..analysis.replay.picture import replay_figure
-            from ..plot.style import save
+            from ..analysis.replay import replay_figure
+            from ..plot import save
 
             save(replay_figure(comparisons), args.plot)
     except (ValueError, OSError) as error:
@@ -101,7 +100,7 @@ def _limits(words: Sequence[str], outputs: Iterable[str]) -> dict[str, float]:
 
 
 def _print(comparisons: Sequence[Comparison]) -> None:
-    from ..plot.terminal import console, figure, table
+    from ..plot import console, figure, table
 
     lines = []
     for one in comparisons:

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from ..lists import read_machine
-from ..report.report import REPEATS, make_report
+from ..report import REPEATS, make_report
 from .check import STATUS_MAX
 from .judgement_options import add_judgement_options, evidence_of
 from .lists import add_lists_command, failed

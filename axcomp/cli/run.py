@@ -12,12 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.diagnosis.records import write_named_diagnoses
-from ..engine.engine import COMMAND, Engine
-from ..engine.nc_scanner import NcError
+from ..analysis.diagnosis import write_named_diagnoses
+from ..engine import COMMAND, Engine, NcError
 from ..lists import read_machine
-from ..model.companions import machine_path, models
-from ..model.machine import CYCLE_TIME
+from ..model import CYCLE_TIME, machine_path, models
 from .axis_type import add_axis_type
 
 TIME = "time"

@@ -11,10 +11,7 @@ from dataclasses import asdict, astuple
 from pathlib import Path
 
 from ..kinds import KINDS
-from ..plot.content import VOLUMETRIC, Content, NotComparableError, Records
-from ..plot.contents import contents_of
-from ..plot.pages import overview, page, shown
-from ..plot.style import save
+from ..plot import VOLUMETRIC, Content, NotComparableError, Records, contents_of, overview, page, save, shown
 from .axis_type import add_axis_type
 from .lists import add_lists_command, failed, read_lists
 
@@ -146,7 +143,7 @@ def _figures(content: Content) -> dict[str, object]:
 
 
 def _print(contents: Sequence[Content], rows: int) -> None:
-    from ..plot.terminal import console, table
+    from ..plot import console, table
 
     out = console()
 

@@ -83,8 +83,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
     if fault:
         print(f"axcomp sweep: {fault}", file=sys.stderr)
         return 1
-    from ..sweep.spec import ERROR, FINDINGS, RUN, read_spec
-    from ..sweep.sweep import job_of, run_sweep
+    from ..sweep import ERROR, FINDINGS, RUN, job_of, read_spec, run_sweep
 
     spec = read_spec(args.spec)
     job, findings = job_of(spec)
@@ -99,7 +98,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
             print("axcomp sweep: stopped; the same command goes on from here", file=sys.stderr)
             raise
     if args.plot is not None:
-        from ..plot.style import save
+        from ..plot import save
 
         save(sweep.plot(args.x, args.y).figure, args.plot)
     if args.format == "json":
@@ -135,7 +134,7 @@ def _print(output: Path, table: pd.DataFrame, taken_over: int) -> None:
     import pandas as pd
 
     from ..plot import terminal
-    from ..sweep.spec import ERROR, FINDINGS
+    from ..sweep import ERROR, FINDINGS
 
     # Texts have no room in a table.
     shown = table.drop(columns=[FINDINGS, ERROR]).head(ROWS_SHOWN)

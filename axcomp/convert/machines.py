@@ -7,9 +7,7 @@ from dataclasses import replace
 
 from ..kinds import Cross, Leadscrew, shown
 from ..kinds import tables_of as tables_of_machine
-from ..model.curve import Curve
-from ..model.grid import Grid
-from ..model.machine import Axis, AxisType, Machine, ModuloRange
+from ..model import Axis, AxisType, Curve, Grid, Machine, ModuloRange
 from .table import CompensationTable
 from .text import CannotHoldError, Unit
 

@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.curve import Curve
-from ..model.quantity import Quantity, Shown, shown, symbol
+from ..model import Curve, Quantity, Shown, shown, symbol
 from .text import CannotHoldError, Unit
 
 _UNITS: dict[str, Unit] = {"mm": "mm", "°": "deg"}

@@ -18,7 +18,7 @@ import numpy as np
 from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-from ..engine.motion import Array
+from ..engine import Array
 
 COMPENSATION, PLANT = "axcomp", "plant"
 COMMANDS = ("setpoint", "velocity", "acceleration")

@@ -8,9 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..engine.motion import Array
-from ..model.machine import Machine
-from ..model.quantity import shown
+from ..engine import Array
+from ..model import Machine, shown
 from .trials import TCP, VOLUMETRIC, Cycles, Trial, name_of
 
 BEFORE, AFTER = 10, 120

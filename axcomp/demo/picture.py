@@ -12,8 +12,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..engine.motion import Array
-from ..model.machine import Machine
+from ..engine import Array
+from ..model import Machine
 from .evaluation import Outcome, motion_of
 from .trials import TCP, VOLUMETRIC, Cycles, Stage, Trial, name_of
 

@@ -14,13 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import extract
 
-from ..engine.motion import Array
-from ..fmu.archive import BuildError
-from ..fmu.content import Built
-from ..fmu.native_package import NoCompilerError, package_native
-from ..fmu.package import package_axcomp
-from ..model.machine import CYCLE_TIME, Machine
-from ..plant.fmu import package_plant, plant_variables
+from ..engine import Array
+from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native
+from ..model import CYCLE_TIME, Machine
+from ..plant import package_plant, plant_variables
 from .coupling import BATCH, COMMANDS, COMPENSATION, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
 from .trials import TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials

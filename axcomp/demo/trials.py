@@ -15,11 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array, Course, Limits, Setpoints, move
-from ..interface.variables import identifier
+from ..engine import Array, Course, Limits, Setpoints, move
+from ..interface import identifier
 from ..kinds import KIND_NAMES, KINDS, Crosstalk, Plane
-from ..model.machine import Axis, Machine
-from ..model.volumetric import LINEAR
+from ..model import LINEAR, Axis, Machine
 
 Cycles = npt.NDArray[np.intp]
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..interface.variable import Variable
+from ..interface import Variable
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

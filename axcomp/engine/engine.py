@@ -13,14 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..interface.slot import Slot
-from ..interface.variable import Value, Variable, with_causality
-from ..interface.variables import Naming, by_name, slot_of, variables_of
+from ..interface import Naming, Slot, Value, Variable, by_name, slot_of, variables_of, with_causality
 from ..lists import Finding, TypeName, read_machine
-from ..model.machine import CYCLE_TIME, Machine
-from ..native.library import compiled_kernel
-from ..native.runner import CompiledTables, run_compiled
-from ..runtime.runtime import Runtime
+from ..model import CYCLE_TIME, Machine
+from ..native import CompiledTables, compiled_kernel, run_compiled
+from ..runtime import Runtime
 from .completion import completed
 from .nc_control import NcControl
 from .nc_scanner import NcError
@@ -28,7 +25,7 @@ from .nc_scanner import NcError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..kernel.records import Inputs
+    from ..kernel import Inputs
 
 COMMAND = "command"
 """Column of a trajectory that has NC commands."""

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 
 from ..kinds import KINDS
-from ..model.volumetric import COMPENSATIONS_MAX, FILES_MAX, LINEAR
+from ..model import COMPENSATIONS_MAX, FILES_MAX, LINEAR
 from .nc_scanner import Cursor, NcError, Word, scan
 
 WORDS = {kind.word: name for name, kind in KINDS.items()}

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from os import PathLike
 from typing import Any
 
-from ..kernel.motion import is_motion
+from ..kernel import is_motion
 from ..kinds import KINDS
 from ..lists import Severity, reread_volumetric
-from ..model.machine import Machine
-from ..runtime.runtime import Runtime
+from ..model import Machine
+from ..runtime import Runtime
 from .nc_commands import (
     AxisCommand,
     AxisVariable,

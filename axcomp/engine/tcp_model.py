@@ -10,12 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..kernel.record import zeros
-from ..kernel.volumetric_errors import errors_at
-from ..kernel.volumetric_model import FRAME, carry_to_workpiece, correction_at, correction_with
-from ..model.machine import Axis, AxisType, Machine
-from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
-from ..runtime.compile import compile_tables
+from ..kernel import FRAME, carry_to_workpiece, correction_at, correction_with, errors_at, zeros
+from ..model import ERRORS, LETTERS, LINEAR, Axis, AxisType, Machine, Volumetric
+from ..runtime import compile_tables
 from .motion import Array
 
 _STEP = 1e-4

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..lists.grammar import decode
+from ..lists import decode
 from .motion import Array, Course, Limits, Setpoints
 
 Columns = dict[str, npt.NDArray[Any]]

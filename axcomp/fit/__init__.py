@@ -1,59 +1,50 @@
 """Lists from measurements: one module a kind of compensation that says what is special about it, one way for all."""
 
-from importlib import import_module
-from importlib.util import find_spec
-from typing import Any
+from __future__ import annotations
 
-from ..kinds import KINDS
-from ..measurement.readings import Readings
-from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation
-from .driver import Fit, Options
-from .target_list import TargetList
+from typing import TYPE_CHECKING
 
-FITS = tuple(name for name in (*KINDS, "volumetric") if find_spec(f".{name}", __package__))
-"""The kinds that have a module here."""
+from ..model.face import face
 
-
-def fit_of(kind: str) -> type[Fit[Any, Any]]:
-    """Return how readings become a table of one of ``FITS``; some take long to load."""
-    found: type[Fit[Any, Any]] = import_module(f".{kind}", __package__).FIT
-    return found
-
-
-def create(kind: str, readings: Readings, target: Any, options: Options | None = None) -> Creation:
-    """Make a list with a new table.
-
-    Parameters
-    ----------
-    kind : str
-        One of ``FITS``.
-    readings : Readings
-        As ``fit_of(kind).read`` returns them.
-    target : TargetList or VolumetricTarget
-        As ``fit_of(kind).open`` returns it.
-    options : Options, optional
-        How it is made.
-
-    Raises
-    ------
-    CannotCreateError
-        The readings do not suffice, the list does not say enough, or the table does not fit.
-    MeasurementError
-        The list is for another axis.
-    """
-    return fit_of(kind)(readings, target, options or Options()).create()
-
-
-__all__ = [
-    "FITS",
-    "LEFT_OUT",
-    "MEASURED",
-    "PREDICTED",
-    "CannotCreateError",
-    "Creation",
-    "Fit",
-    "Options",
-    "TargetList",
-    "create",
-    "fit_of",
-]
+if TYPE_CHECKING:
+    from .axis_list import AxisList as AxisList
+    from .creation import LEFT_OUT as LEFT_OUT
+    from .creation import MEASURED as MEASURED
+    from .creation import PREDICTED as PREDICTED
+    from .creation import CannotCreateError as CannotCreateError
+    from .creation import Creation as Creation
+    from .crosstalk import AccelerationTests as AccelerationTests
+    from .driver import Fit as Fit
+    from .driver import Options as Options
+    from .friction import FrictionReadings as FrictionReadings
+    from .hat_functions import hats as hats
+    from .plane import Flatness as Flatness
+    from .registry import FITS as FITS
+    from .registry import create as create
+    from .registry import fit_of as fit_of
+    from .target_list import TargetList as TargetList
+    from .thinning import closest as closest
+    from .thinning import deviation as deviation
+    from .thinning import fewest as fewest
+    from .volumetric_basis import Sought as Sought
+    from .volumetric_basis import sought_errors as sought_errors
+    from .volumetric_identification import Identifier as Identifier
+    from .volumetric_identification import TcpDeviations as TcpDeviations
+    from .volumetric_target import VolumetricTarget as VolumetricTarget
+else:
+    __all__, __getattr__, __dir__ = face(
+        __name__,
+        axis_list="AxisList",
+        creation="CannotCreateError Creation LEFT_OUT MEASURED PREDICTED",
+        crosstalk="AccelerationTests",
+        driver="Fit Options",
+        friction="FrictionReadings",
+        hat_functions="hats",
+        plane="Flatness",
+        registry="FITS create fit_of",
+        target_list="TargetList",
+        thinning="closest deviation fewest",
+        volumetric_basis="Sought sought_errors",
+        volumetric_identification="Identifier TcpDeviations",
+        volumetric_target="VolumetricTarget",
+    )

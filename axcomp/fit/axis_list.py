@@ -5,14 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, ClassVar
 
-from ..kinds import KINDS
-from ..kinds.parameter import ListKind
-from ..lists import Document, Reading
-from ..lists.findings import Findings
-from ..lists.format import Lines
-from ..lists.grammar import entries
-from ..measurement.columns import MeasurementError
-from ..model.machine import Axis, AxisType
+from ..kinds import KINDS, ListKind
+from ..lists import Document, Findings, Lines, Reading, entries
+from ..measurement import MeasurementError
+from ..model import Axis, AxisType
 from .target_list import TargetList
 
 

@@ -9,12 +9,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..engine.motion import Array
-from ..kinds import Backlash
-from ..kinds.backlash import MODE, NEGATIVE
-from ..measurement.iso230 import evaluate
-from ..measurement.positioning import Positioning
-from ..model.quantity import shown
+from ..engine import Array
+from ..kinds import MODE, NEGATIVE, Backlash
+from ..measurement import Positioning, evaluate
+from ..model import shown
 from .axis_list import AxisList
 from .creation import Report
 from .driver import NEW_LIST, ON_TOP, rounded

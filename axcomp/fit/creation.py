@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..lists.saving import write_whole
+from ..lists import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,8 +8,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..kinds import Cross
-from ..measurement.positioning import read_positioning
-from ..model.quantity import shown
+from ..measurement import read_positioning
+from ..model import shown
 from .driver import ON_TOP, axis_numbers, rounded
 from .over_position import SidedFit, Sides
 

@@ -11,13 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 from ..kinds import Crosstalk, CrosstalkTest
-from ..measurement.columns import LENGTHS, Column
-from ..measurement.positioning import TARGET_DIGITS
-from ..measurement.readings import RUN, Readings
-from ..model.quantity import shown
-from ..plot.style import labelled
+from ..measurement import LENGTHS, RUN, TARGET_DIGITS, Column, Readings
+from ..model import shown
+from ..plot import labelled
 from .creation import CannotCreateError
 from .driver import NEW_LIST, Fit, axis_numbers, bound, rounded
 from .hat_functions import hats

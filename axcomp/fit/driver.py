@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 from ..kinds import KINDS
-from ..measurement.readings import Readings
-from ..model.quantity import shown
+from ..measurement import Readings
+from ..model import shown
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, Report
 from .target_list import TargetList
 from .thinning import Places, closest, deviation, fewest

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 from ..kinds import Friction
-from ..measurement.columns import Column
-from ..measurement.readings import RUN, Readings
-from ..plot.style import labelled
+from ..measurement import RUN, Column, Readings
+from ..plot import labelled
 from .creation import CannotCreateError, Report
 from .driver import MAX_POINTS, NEW_LIST, Fit, bound
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..engine.motion import Array
+from ..engine import Array
 
 
 def hats(knots: Array, at: Array) -> Array:

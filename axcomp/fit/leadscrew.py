@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..kinds import Leadscrew
-from ..model.quantity import shown
+from ..model import shown
 from .driver import ON_TOP, rounded
 from .over_position import OverPosition, SidedFit, Sides
 

@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 import numpy as np
 
-from ..engine.motion import Array
-from ..measurement.iso230 import SYMBOLS, evaluate
-from ..measurement.positioning import Positioning, read_positioning
-from ..model.curve import Curve
-from ..model.quantity import Quantity, symbol
-from ..plot.style import DOWN, UP, labelled
+from ..engine import Array
+from ..measurement import SYMBOLS, Positioning, evaluate, read_positioning
+from ..model import Curve, Quantity, symbol
+from ..plot import DOWN, UP, labelled
 from .creation import CannotCreateError, Report
 from .driver import Fit, rounded
 

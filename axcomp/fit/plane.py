@@ -11,14 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 from ..kinds import Plane
-from ..measurement.columns import ANGLES, LENGTHS, Column, Columns
-from ..measurement.positioning import TARGET_DIGITS, angular, unit_of
-from ..measurement.readings import RUN, Readings
-from ..model.grid import Grid
-from ..model.quantity import Quantity, shown
-from ..plot.style import labelled
+from ..measurement import ANGLES, LENGTHS, RUN, TARGET_DIGITS, Column, Columns, Readings, angular, unit_of
+from ..model import Grid, Quantity, shown
+from ..plot import labelled
 from .creation import CannotCreateError
 from .driver import ON_TOP, Fit, axis_numbers, rounded
 from .hat_functions import hats

@@ -6,18 +6,23 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
-from ..kinds import KINDS
-from ..kinds.parameter import ListKind, Severity, key_of
-from ..lists import Document, Reading, read_machine
-from ..lists.axes import Axes, AxisSettings
-from ..lists.catalogue import CATALOGUE, parameter
-from ..lists.compensation import TableReader
-from ..lists.findings import Findings
-from ..lists.format import Lines
-from ..lists.start_up import START_UP_NAME
-from ..lists.values import ListValues
-from ..measurement.columns import MeasurementError
-from ..model.machine import Axis
+from ..kinds import KINDS, ListKind, Severity, key_of
+from ..lists import (
+    CATALOGUE,
+    START_UP_NAME,
+    Axes,
+    AxisSettings,
+    Document,
+    Findings,
+    Lines,
+    ListValues,
+    Reading,
+    TableReader,
+    parameter,
+    read_machine,
+)
+from ..measurement import MeasurementError
+from ..model import Axis
 
 _SETTINGS = {
     "max_points": "max_points",

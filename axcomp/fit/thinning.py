@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 
 Places = npt.NDArray[np.int64]
 

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
-from ..model.quantity import shown
-from ..model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric, is_angle
-from ..plot.style import labelled
+from ..engine import Array
+from ..model import ERRORS, LETTERS, LINEAR, Volumetric, is_angle, shown
+from ..plot import labelled
 from .creation import CannotCreateError, Report
 from .driver import Fit, Option
 from .volumetric_identification import NODES_MAX, Identification, Identifier, TcpDeviations

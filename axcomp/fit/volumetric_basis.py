@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
-from ..model.volumetric import ERRORS, LETTERS, ROTARY
+from ..engine import Array
+from ..model import ERRORS, LETTERS, ROTARY
 from .hat_functions import hats
 
 FULL_TURN = 360.0

@@ -10,12 +10,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
-from ..engine.motion import Array
-from ..engine.tcp_model import TcpModel
-from ..measurement.columns import ANGLES, LENGTHS, Column, Columns
-from ..measurement.readings import RUN, Readings
-from ..model.quantity import shown
-from ..model.volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric
+from ..engine import Array, TcpModel
+from ..measurement import ANGLES, LENGTHS, RUN, Column, Columns, Readings
+from ..model import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric, shown
 from .creation import CannotCreateError
 from .volumetric_basis import FULL_TURN, Redundancy, Selection, Sought, sought_errors
 

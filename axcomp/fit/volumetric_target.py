@@ -6,20 +6,31 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from ..kinds.parameter import ListKind, Severity
-from ..lists import Document
-from ..lists.axes import Axes
-from ..lists.catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
-from ..lists.etalon import read_etalon, write_etalon
-from ..lists.files import Files
-from ..lists.findings import Finding, Findings
-from ..lists.isg_csv import read_isg_csv, write_isg_csv
-from ..lists.start_up import START_UP_NAME, MachineFiles, find_lists
-from ..lists.volumetric_list import VolumetricReader
-from ..lists.volumetric_parameters import assemble
-from ..lists.volumetric_writer import blocks_of, format_volumetric_list, parameter_file
-from ..measurement.columns import MeasurementError
-from ..model.volumetric import COMPENSATIONS_MAX, FILES_MAX, Interpolation, Volumetric
+from ..kinds import ListKind, Severity
+from ..lists import (
+    AUTO,
+    ETALON_EXCHANGE,
+    ISG_CSV,
+    START_UP_NAME,
+    Axes,
+    Document,
+    Files,
+    Finding,
+    Findings,
+    MachineFiles,
+    VolumetricReader,
+    assemble,
+    blocks_of,
+    find_lists,
+    format_volumetric_list,
+    parameter_file,
+    read_etalon,
+    read_isg_csv,
+    write_etalon,
+    write_isg_csv,
+)
+from ..measurement import MeasurementError
+from ..model import COMPENSATIONS_MAX, FILES_MAX, Interpolation, Volumetric
 
 _FILE_NAME = "vol_comp[i].file_name"
 _INDEX = re.compile(r"([0-9])\D*\Z")

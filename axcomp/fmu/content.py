@@ -9,12 +9,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from ..interface.variable import Variable
-from ..interface.variables import Naming, identifier, variables_of
+from ..interface import Naming, Variable, identifier, variables_of
 from ..kinds import CompileError
 from ..lists import Finding, Reading, TypeName, read_machine
-from ..model.machine import Machine
-from ..runtime.compile import Compiled, compile_tables
+from ..model import Machine
+from ..runtime import Compiled, compile_tables
 from .archive import BuildError, generation_date
 from .description import Description
 from .packing import packed_lists

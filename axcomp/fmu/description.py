@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-from ..interface.variable import Value, Variable, with_causality
+from ..interface import Value, Variable, with_causality
 
 MILLI = 1e-3
 DEGREE = math.pi / 180.0

@@ -12,15 +12,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from ..interface.errors import ERROR_CALL
-from ..interface.slot import Slot
-from ..interface.variable import TYPE_NAMES, Value
-from ..interface.variables import Controls, every_slot
-from ..kernel.records import ERROR_UPDATE
-from ..kinds.parameter import Severity
+from ..interface import ERROR_CALL, TYPE_NAMES, Controls, Slot, Value, every_slot
+from ..kernel import ERROR_UPDATE
+from ..kinds import Severity
 from ..lists import read_machine
-from ..model.machine import Machine
-from ..runtime.runtime import Runtime
+from ..model import Machine
+from ..runtime import Runtime
 from .packed_interface import FILE_NAME, Interface
 from .saved import Saved
 

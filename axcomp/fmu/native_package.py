@@ -9,12 +9,10 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from ..interface.variables import Naming
+from ..interface import Naming
 from ..lists import TypeName
-from ..model.companions import fmu_sources
-from ..model.machine import CYCLE_TIME
-from ..native.compiler import PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
-from ..native.image import image_of, image_source
+from ..model import CYCLE_TIME, fmu_sources
+from ..native import PLATFORMS, CompilerError, compile_library, compiler_of, image_of, image_source, own_platform
 from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
 from .content import NAME, Built, output_path, read_content
 from .description import model_description

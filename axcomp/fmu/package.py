@@ -9,11 +9,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..interface.variable import Variable
-from ..interface.variables import Naming
+from ..interface import Naming, Variable
 from ..lists import TypeName
-from ..model.companions import fmu_sources
-from ..model.machine import CYCLE_TIME
+from ..model import CYCLE_TIME, fmu_sources
 from .archive import BuildError, content_guid, file_bytes, write_fmu
 from .content import PACKAGE, Built, output_path, read_content
 from .description import Description, model_description

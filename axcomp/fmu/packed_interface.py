@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..lists import TypeName
-from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
+from ..model import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
 
 FILE_NAME = "axcomp.json"
 """Name of the file in ``resources``."""

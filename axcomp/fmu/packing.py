@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path, PurePosixPath
 
-from ..kinds.parameter import ListKind
+from ..kinds import ListKind
 from ..lists import Document, Reading, read_machine
 from .archive import BuildError
 

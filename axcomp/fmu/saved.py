@@ -12,8 +12,8 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from .. import kinds, model
-from ..model.machine import Machine
-from ..runtime.snapshot import SnapshotError
+from ..model import Machine
+from ..runtime import SnapshotError
 
 MAGIC = b"axcompF1"
 

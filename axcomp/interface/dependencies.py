@@ -9,8 +9,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..kinds import KINDS, Kind, kinds_of
-from ..model.machine import Axis, Machine
-from ..model.volumetric import Volumetric
+from ..model import Axis, Machine, Volumetric
 
 Input = tuple[int | None, str]
 """Place of the axis in the machine (None: of the whole machine) and name of the input."""

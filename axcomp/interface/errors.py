@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
-from ..kernel.records import ERROR_INPUT, ERROR_UPDATE
-from ..kernel.volumetric_records import ERROR_LIMIT_EXCEEDED, ERROR_LIMIT_UNDEFINED, ERROR_PROGRAM_END, ERROR_SINGULAR
+from ..kernel import (
+    ERROR_INPUT,
+    ERROR_LIMIT_EXCEEDED,
+    ERROR_LIMIT_UNDEFINED,
+    ERROR_PROGRAM_END,
+    ERROR_SINGULAR,
+    ERROR_UPDATE,
+)
 from ..kinds import KINDS
 
 ERROR_CALL = 903  # AXC-903

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ..kinds import KIND_NAMES, KINDS
-from ..model.companions import models
+from ..model import models
 from .errors import ERRORS
 from .variable import BLOCK, TYPE_NAMES
 from .variables import (

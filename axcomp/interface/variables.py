@@ -10,10 +10,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from ..kernel.records import Inputs, Outputs
+from ..kernel import Inputs, Outputs
 from ..kinds import KINDS, kinds_of
-from ..model.machine import AXES_MAX, CYCLE_TIME, Axis, Machine
-from ..model.volumetric import COMPENSATIONS_MAX, Volumetric
+from ..model import AXES_MAX, COMPENSATIONS_MAX, CYCLE_TIME, Axis, Machine, Volumetric
 from .dependencies import Dependencies, Input, volumetric_input, volumetric_switch
 from .slot import Slot, slot_in
 from .variable import BLOCK, Causality, Value, Variability, Variable

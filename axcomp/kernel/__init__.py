@@ -4,6 +4,53 @@ Numbers are double and int32, tables lie in one pool of doubles, and nothing is 
 language and on any machine, give the same bits. ``record`` is the only module that C does not see.
 """
 
+from __future__ import annotations
+
+from .adopt import adopt_axis, adopt_volumetrics, keep_declared, move_axis_table, update_error
+from .compensations import (
+    BACKLASH,
+    CROSS,
+    CROSSTALK,
+    FRICTION,
+    LEADSCREW,
+    PLANE,
+    TEMPERATURE,
+    CompensationTables,
+    has_notice,
+)
+from .crosstalk import (
+    CROSSTALK_CONSTANT,
+    CROSSTALK_CURVE,
+    CROSSTALK_GRID,
+    CROSSTALK_LINE,
+    CROSSTALK_TRIANGLES,
+    CrosstalkTable,
+)
+from .cycle import LARGEST, cycle
+from .fit import tables_fit
+from .friction import DELAY_LINE, LOOKAHEAD_MAX
+from .initial import set_initial_inputs
+from .interpolation import Curve, Lookup, curve_value, fold, nearest
+from .motion import Argument, is_motion
+from .record import Vec, fields_of, zero, zeros
+from .records import ERROR_INPUT, ERROR_UPDATE, AxisInputs, AxisOutputs, AxisTable, Inputs, Outputs, State, Tables
+from .switching import CYCLES_MAX, ramp
+from .trigonometry import cosine, sine
+from .volumetric_errors import errors_at, find_cell
+from .volumetric_model import FRAME, carry_to_workpiece, correction_at, correction_with
+from .volumetric_records import (
+    ERROR_LIMIT_EXCEEDED,
+    ERROR_LIMIT_UNDEFINED,
+    ERROR_PROGRAM_END,
+    ERROR_SINGULAR,
+    INTERPOLATE_GRID,
+    INTERPOLATE_PATH,
+    INTERPOLATE_SCATTER,
+    ErrorBlock,
+    VolumetricTable,
+)
+from .volumetric_switching import adopt_volumetric
+
 EXPORTS = (
     "set_initial_inputs",
     "cycle",
@@ -16,3 +63,72 @@ EXPORTS = (
     "tables_fit",
 )
 """The functions that C calls by name; the translation has them and what they call."""
+
+__all__ = [
+    "BACKLASH",
+    "CROSS",
+    "CROSSTALK",
+    "CROSSTALK_CONSTANT",
+    "CROSSTALK_CURVE",
+    "CROSSTALK_GRID",
+    "CROSSTALK_LINE",
+    "CROSSTALK_TRIANGLES",
+    "CYCLES_MAX",
+    "DELAY_LINE",
+    "ERROR_INPUT",
+    "ERROR_LIMIT_EXCEEDED",
+    "ERROR_LIMIT_UNDEFINED",
+    "ERROR_PROGRAM_END",
+    "ERROR_SINGULAR",
+    "ERROR_UPDATE",
+    "FRAME",
+    "FRICTION",
+    "INTERPOLATE_GRID",
+    "INTERPOLATE_PATH",
+    "INTERPOLATE_SCATTER",
+    "LARGEST",
+    "LEADSCREW",
+    "LOOKAHEAD_MAX",
+    "PLANE",
+    "TEMPERATURE",
+    "Argument",
+    "AxisInputs",
+    "AxisOutputs",
+    "AxisTable",
+    "CompensationTables",
+    "CrosstalkTable",
+    "Curve",
+    "ErrorBlock",
+    "Inputs",
+    "Lookup",
+    "Outputs",
+    "State",
+    "Tables",
+    "Vec",
+    "VolumetricTable",
+    "adopt_axis",
+    "adopt_volumetric",
+    "adopt_volumetrics",
+    "carry_to_workpiece",
+    "correction_at",
+    "correction_with",
+    "cosine",
+    "curve_value",
+    "cycle",
+    "errors_at",
+    "fields_of",
+    "find_cell",
+    "fold",
+    "has_notice",
+    "is_motion",
+    "keep_declared",
+    "move_axis_table",
+    "nearest",
+    "ramp",
+    "set_initial_inputs",
+    "sine",
+    "tables_fit",
+    "update_error",
+    "zero",
+    "zeros",
+]

@@ -8,10 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..kernel.cycle import LARGEST
-from ..model.curve import Curve
-from ..model.machine import Axis, Compensation, Machine
-from ..model.quantity import Quantity
+from ..kernel import LARGEST
+from ..model import Axis, Compensation, Curve, Machine, Quantity
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import DataType, ListKind, Parameter, Severity, Value

@@ -5,12 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from ..kernel.compensations import CompensationTables
-from ..kernel.cycle import LARGEST
-from ..kernel.interpolation import Curve
-from ..kernel.motion import Argument
-from ..kernel.records import AxisTable
-from ..model.machine import Axis, Machine
+from ..kernel import LARGEST, Argument, AxisTable, CompensationTables, Curve
+from ..model import Axis, Machine
 
 
 class CompileError(ValueError):

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..model.curve import Curve
-from ..model.machine import Axis, Compensation, Machine
+from ..model import Axis, Compensation, Curve, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import AXIS_NUMBER, DataType, Parameter, Severity, activation, both, isg, position, smooth_switching

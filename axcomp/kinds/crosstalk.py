@@ -5,13 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import fields
 
-from ..kernel.crosstalk import (
-    CROSSTALK_CURVE,
-)
-from ..model.curve import Curve
-from ..model.grid import Scatter
-from ..model.machine import Axis, AxisType, Machine
-from ..model.quantity import Quantity
+from ..kernel import CROSSTALK_CURVE
+from ..model import Axis, AxisType, Curve, Machine, Quantity, Scatter
 from .compiling import AxisCompiler
 from .crosstalk_data import (
     ADAPTATION,

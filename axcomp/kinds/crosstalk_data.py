@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..model.machine import Compensation
+from ..model import Compensation
 from .units import span
 
 PREFIX = "kw.crosstalk."

@@ -5,16 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..kernel.crosstalk import (
-    CROSSTALK_CONSTANT,
-    CROSSTALK_GRID,
-    CROSSTALK_LINE,
-    CROSSTALK_TRIANGLES,
-    CrosstalkTable,
-)
-from ..kernel.cycle import LARGEST
-from ..model.delaunay import triangulate, width
-from ..model.machine import AxisType
+from ..kernel import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES, LARGEST, CrosstalkTable
+from ..model import AxisType, triangulate, width
 from .compiling import AxisCompiler
 from .crosstalk_data import (
     ADAPTATION,

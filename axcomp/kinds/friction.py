@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
-from ..kernel.cycle import LARGEST
-from ..kernel.friction import DELAY_LINE, LOOKAHEAD_MAX
-from ..model.curve import Curve
-from ..model.machine import Axis, Compensation, Machine
-from ..model.quantity import Quantity, symbol
+from ..kernel import DELAY_LINE, LARGEST, LOOKAHEAD_MAX
+from ..model import Axis, Compensation, Curve, Machine, Quantity, symbol
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
 from .parameter import BELOW_MAX, DataType, Parameter, Severity, activation, both

@@ -11,9 +11,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
-from ..kernel.compensations import CompensationTables
-from ..kernel.record import fields_of
-from ..model.machine import Axis, AxisType, Compensation, Machine, ModuloRange
+from ..kernel import CompensationTables, fields_of
+from ..model import Axis, AxisType, Compensation, Machine, ModuloRange
 from .compiling import AxisCompiler
 from .parameter import Codes, ListKind, Parameter, Value
 from .shown import Range, Table, ranges_of

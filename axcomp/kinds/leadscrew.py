@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 
-from ..model.curve import Curve
-from ..model.machine import Axis, Compensation, Machine
+from ..model import Axis, Compensation, Curve, Machine
 from . import shown
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, TableReader

@@ -6,9 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from ..kernel.cycle import LARGEST
-from ..model.grid import Grid
-from ..model.machine import Axis, AxisType, Compensation, Machine
+from ..kernel import LARGEST
+from ..model import Axis, AxisType, Compensation, Grid, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
 from .parameter import (

@@ -8,7 +8,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from ..model.machine import Axis, Compensation
+from ..model import Axis, Compensation
 from .kind import KIND_NAMES, Kind
 
 KINDS: dict[str, Kind[Any]] = {name: import_module(f".{name}", __package__).KIND for name in KIND_NAMES}

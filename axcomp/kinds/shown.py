@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeAlias
 
-from ..model.curve import Curve
-from ..model.grid import Grid, Scatter
-from ..model.machine import Axis
-from ..model.quantity import Quantity, symbol
+from ..model import Axis, Curve, Grid, Quantity, Scatter, symbol
 
 Table: TypeAlias = Curve | Grid | Scatter
 

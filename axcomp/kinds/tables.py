@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..model.curve import Curve
-from ..model.grid import Grid
-from ..model.machine import Axis, Compensation, Machine
+from ..model import Axis, Compensation, Curve, Grid, Machine
 from .registry import KINDS, kind_of
 from .shown import POSITION, Range, Table
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..kernel.cycle import LARGEST
-from ..model.curve import Curve
-from ..model.machine import Axis, AxisType, Compensation, Machine
+from ..kernel import LARGEST
+from ..model import Axis, AxisType, Compensation, Curve, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
 from .parameter import DataType, ListKind, Parameter, Quantity, Severity, activation, position

@@ -1,26 +1,83 @@
 """The controller's files, read and written: grammar, parameter catalogue, findings, one module per kind of file."""
 
-from ..kinds.parameter import Severity
+from ..kinds import Severity
+from .axes import Axes, AxisSettings
+from .catalogue import CATALOGUE, SPELLINGS, parameter
+from .catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
+from .compensation import TableReader
 from .document import Document
-from .findings import CODES, Finding, ListError
+from .etalon import read_etalon, write_etalon
+from .files import Files
+from .findings import CODES, LIMIT, Finding, Findings, ListError
+from .format import Lines
+from .grammar import Entry, decode, entries, number, string
+from .isg_csv import read_isg_csv, write_isg_csv
 from .positions import Position
 from .reader import Reading, TypeName, read_machine, reread_volumetric
+from .reference import HEADINGS, PAGE, as_dict, cells, page
+from .saving import write_whole
+from .start_up import START_UP_NAME, MachineFiles, find_lists
+from .values import ListValues, read_values
+from .volumetric_blocks import ParameterBlock
+from .volumetric_list import VolumetricReader
+from .volumetric_parameters import Parameters, assemble
+from .volumetric_writer import blocks_of, format_volumetric_list, parameter_file
 from .writer import format_axis_list, format_compensation_list, format_start_up_list, machine_documents, write_machine
 
 __all__ = [
+    "AUTO",
+    "CATALOGUE",
     "CODES",
+    "ETALON_EXCHANGE",
+    "HEADINGS",
+    "ISG_CSV",
+    "LIMIT",
+    "PAGE",
+    "SPELLINGS",
+    "START_UP_NAME",
+    "Axes",
+    "AxisSettings",
     "Document",
+    "Entry",
+    "Files",
     "Finding",
+    "Findings",
+    "Lines",
     "ListError",
+    "ListValues",
+    "MachineFiles",
+    "ParameterBlock",
+    "Parameters",
     "Position",
     "Reading",
     "Severity",
+    "TableReader",
     "TypeName",
+    "VolumetricReader",
+    "as_dict",
+    "assemble",
+    "blocks_of",
+    "cells",
+    "decode",
+    "entries",
+    "find_lists",
     "format_axis_list",
     "format_compensation_list",
     "format_start_up_list",
+    "format_volumetric_list",
     "machine_documents",
+    "number",
+    "page",
+    "parameter",
+    "parameter_file",
+    "read_etalon",
+    "read_isg_csv",
     "read_machine",
+    "read_values",
     "reread_volumetric",
+    "string",
+    "write_etalon",
+    "write_isg_csv",
     "write_machine",
+    "write_whole",
 ]

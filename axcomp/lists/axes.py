@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..kinds import KINDS
-from ..kinds.units import METRIC, Gear
-from ..model.machine import AXES_MAX, AxisType, ModuloRange
+from ..kinds import KINDS, METRIC, Gear
+from ..model import AXES_MAX, AxisType, ModuloRange
 from .catalogue import parameter
 from .findings import Findings
 from .values import ListValues

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..kinds import KINDS
-from ..kinds.parameter import ListKind, Parameter, key_of
+from ..kinds import KINDS, ListKind, Parameter, key_of
 from .catalogue_compensation import COMPENSATION
 from .catalogue_machine import AXIS, START_UP
 from .catalogue_volumetric import VOLUMETRIC

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ..kinds import KINDS
-from ..kinds.parameter import DataType, ListKind, Parameter, both
+from ..kinds import KINDS, DataType, ListKind, Parameter, both
 
 _HEADER = (
     Parameter(

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ..kinds import KINDS
-from ..kinds.parameter import DataType, ListKind, Manual, Parameter, Quantity, axis
-from ..model.volumetric import COMPENSATIONS_MAX
+from ..kinds import KINDS, DataType, ListKind, Manual, Parameter, Quantity, axis
+from ..model import COMPENSATIONS_MAX
 
 
 def _start_up(number: str) -> dict[Manual, str]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..kinds.parameter import DataType, Manual, Parameter, Quantity
-from ..model.volumetric import FILES_MAX, LETTERS, LINEAR, Interpolation
+from ..kinds import DataType, Manual, Parameter, Quantity
+from ..model import FILES_MAX, LETTERS, LINEAR, Interpolation
 
 AUTO = "AUTO"
 """The fifth interpolation mode: GRID for what lies on a grid, SCATTER for the rest."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import groupby, pairwise, product
 from typing import Any
 
-from ..kinds.units import METRIC, Gear, convert
+from ..kinds import METRIC, Gear, convert
 from .axes import Axes, AxisSettings
 from .catalogue import parameter
 from .findings import Findings

@@ -12,7 +12,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from ..kinds.parameter import DataType, ListKind, Parameter, key_of
+from ..kinds import DataType, ListKind, Parameter, key_of
 from .catalogue import SPELLINGS, parameter
 from .findings import Findings
 from .format import text_of

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..model.volumetric import PARAMETERS
+from ..model import PARAMETERS
 from .findings import Findings
 from .volumetric_blocks import ELISIONS, ParameterBlock, check_values, note_elision, numbers
 

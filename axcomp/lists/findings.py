@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..kinds import KINDS
-from ..kinds.parameter import Severity
+from ..kinds import KINDS, Severity
 
 _NAME_MAX = 80
 """Characters of a parameter that are shown at most: that of many columns at once can be long."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 
-from ..kinds.parameter import ListKind, Parameter, Value
-from ..kinds.units import in_list
+from ..kinds import ListKind, Parameter, Value, in_list
 from .catalogue import parameter
 from .grammar import string
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ..model.volumetric import LETTERS
+from ..model import LETTERS
 from .findings import Findings
 from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers
 

@@ -10,7 +10,7 @@ import difflib
 import re
 from functools import lru_cache
 
-from ..kinds.parameter import ListKind
+from ..kinds import ListKind
 from .catalogue import SPELLINGS
 
 _CHANNEL_HEADS = "gruppe m_synch prog_start speed_limit_look_ahead spindel vector"

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..kinds.parameter import DataType, ListKind, Parameter, key_of
+from ..kinds import DataType, ListKind, Parameter, key_of
 from .catalogue import SPELLINGS
 from .findings import Finding
 from .grammar import QUOTES, Entry, entries, flags, string, with_indices

@@ -8,10 +8,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from ..kinds import KINDS, Kind
-from ..kinds.parameter import ListKind, Severity
-from ..model.machine import Axis, AxisType, Compensation, Machine, ModuloRange
-from ..model.volumetric import Volumetric
+from ..kinds import KINDS, Kind, ListKind, Severity
+from ..model import Axis, AxisType, Compensation, Machine, ModuloRange, Volumetric
 from .axes import Axes, AxisSettings, read_axis
 from .compensation import TableReader
 from .document import Document

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ..kinds.parameter import DataType, ListKind, Manual, Parameter
-from ..model.companions import models
+from ..kinds import DataType, ListKind, Manual, Parameter
+from ..model import models
 from .catalogue import CATALOGUE
 from .findings import CODES
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..kinds.parameter import ListKind
+from ..kinds import ListKind
 from .document import Document
 from .files import Files
 from .findings import Findings

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 
-from ..kinds.parameter import DataType, ListKind, Parameter, Severity, Value, key_of
-from ..kinds.units import METRIC, Gear, convert
+from ..kinds import METRIC, DataType, Gear, ListKind, Parameter, Severity, Value, convert, key_of
 from .catalogue import SPELLINGS, ZEROED, parameter
 from .findings import CODES, Findings
 from .grammar import Entry, entries, flags, number, string

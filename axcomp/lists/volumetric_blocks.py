@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from ..model.volumetric import ERRORS, LENGTH_MAX, LETTERS, PARAMETERS, is_angle, largest
+from ..model import ERRORS, LENGTH_MAX, LETTERS, PARAMETERS, is_angle, largest
 from .findings import Findings
 
 ELISIONS = frozenset(("...", "…", ":"))

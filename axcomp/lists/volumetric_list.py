@@ -9,10 +9,8 @@ import math
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
-from ..kinds.parameter import ListKind
-from ..model.machine import AxisType
-from ..model.quantity import shown
-from ..model.volumetric import (
+from ..kinds import ListKind
+from ..model import (
     AXIS_NUMBERS,
     CENTERS,
     COMPENSATIONS_MAX,
@@ -28,11 +26,13 @@ from ..model.volumetric import (
     TOOL_ORIENTATION,
     TOOL_POSITION,
     UNIT_TOLERANCE,
+    AxisType,
     ErrorTable,
     Triple,
     Volumetric,
     is_angle,
     jump_of,
+    shown,
 )
 from .axes import Axes, AxisSettings
 from .catalogue_volumetric import ETALON_EXCHANGE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..model.volumetric import ERRORS, FULL_TURN, LETTERS, LINEAR, ROTARY, ErrorTable, Interpolation, is_grid
+from ..model import ERRORS, FULL_TURN, LETTERS, LINEAR, ROTARY, ErrorTable, Interpolation, is_grid
 from .catalogue_volumetric import AUTO
 from .findings import Findings
 from .volumetric_blocks import ParameterBlock

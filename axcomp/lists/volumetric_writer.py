@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..kinds.parameter import ListKind
-from ..model.volumetric import ErrorTable, Interpolation, Volumetric, is_grid
+from ..kinds import ListKind
+from ..model import ErrorTable, Interpolation, Volumetric, is_grid
 from .catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
 from .etalon import write_etalon
 from .format import Lines

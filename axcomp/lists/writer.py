@@ -5,9 +5,8 @@ from __future__ import annotations
 from os import PathLike
 from pathlib import Path
 
-from ..kinds import KINDS, kind_of
-from ..kinds.parameter import ListKind
-from ..model.machine import AXES_MAX, Axis, Compensation, Machine
+from ..kinds import KINDS, ListKind, kind_of
+from ..model import AXES_MAX, Axis, Compensation, Machine
 from .document import Document
 from .format import Lines
 from .saving import write_whole

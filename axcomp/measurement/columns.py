@@ -17,9 +17,9 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
-from ..lists.grammar import decode
-from ..model.quantity import shown
+from ..engine import Array
+from ..lists import decode
+from ..model import shown
 
 LENGTHS = {"m": 1e6, "mm": 1e3, "um": 1.0, "nm": 1e-3}
 """Units of length, in µm."""

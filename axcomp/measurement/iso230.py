@@ -22,8 +22,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
-from ..model.quantity import symbol
+from ..engine import Array
+from ..model import symbol
 from .positioning import Positioning
 from .uncertainty import Conditions
 
@@ -162,7 +162,7 @@ class Iso230Result:
 
         It goes into ``ax``, or into a new figure; return the axes.
         """
-        from ..plot.style import DOWN, UP, labelled, new_figure  # loads Matplotlib
+        from ..plot import DOWN, UP, labelled, new_figure
 
         ax = new_figure().add_subplot() if ax is None else ax
         sides = ((UP, 1, "↑", self.mean_up, self.s_up), (DOWN, -1, "↓", self.mean_down, self.s_down))

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
-from ..model.quantity import shown
+from ..engine import Array
+from ..model import shown
 from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, read_columns
 from .readings import Readings, whole_runs
 from .renishaw import is_rtl, read_rtl

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 from .columns import LARGEST, MeasurementError, read_text
 
 SUFFIX = ".rtl"

@@ -23,7 +23,7 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from ..model.quantity import shown
+from ..model import shown
 
 UNIFORM = 1.0 / math.sqrt(3.0)
 """Expanded uncertainty (k = 2) of an influence known within a range of 1."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..model.companions import fmu_sources
+from ..model import fmu_sources
 from .places import layout_header, places_source
 
 

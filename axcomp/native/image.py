@@ -6,7 +6,7 @@ import struct
 import zlib
 from typing import Any
 
-from ..runtime.compile import Compiled
+from ..runtime import Compiled
 from .layout import ctypes_of, to_c
 from .places import layout
 

@@ -6,8 +6,8 @@ import ctypes
 from functools import cache
 from typing import Annotated, Any, get_args, get_origin
 
-from ..interface.slot import steps_of
-from ..kernel.record import fields_of
+from ..interface import steps_of
+from ..kernel import fields_of
 
 _SCALARS = {float: ctypes.c_double, int: ctypes.c_int32, bool: ctypes.c_bool}
 

@@ -11,7 +11,7 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
-from ..model.companions import fmu_sources
+from ..model import fmu_sources
 from .compiler import FLAGS, PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
 from .places import layout
 

@@ -11,22 +11,21 @@ import zlib
 from collections.abc import Iterator
 from typing import Any
 
-from ..interface.variable import BLOCK, TYPE_NAMES
-from ..interface.variables import (
+from ..interface import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
+    BLOCK,
     MACHINE_BLOCK,
     OF_MACHINE,
     OF_VOLUMETRIC,
+    TYPE_NAMES,
     VOLUMETRIC_BLOCK,
     Declaration,
 )
-from ..kernel.record import fields_of
-from ..kernel.records import AxisTable, Inputs, Outputs, State
-from ..kernel.volumetric_records import VolumetricTable
+from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_of
 from ..kinds import KIND_NAMES, KINDS
-from ..model.machine import CYCLE_TIME_MAX
-from ..runtime.runtime import ON_INSTANT
+from ..model import CYCLE_TIME_MAX
+from ..runtime import ON_INSTANT
 from .layout import ctypes_of
 
 GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"

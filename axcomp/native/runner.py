@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..interface.variable import Variable
-from ..kernel.record import Vec
-from ..kernel.records import Inputs, Outputs, Tables
-from ..runtime.runtime import Runtime
+from ..interface import Variable
+from ..kernel import Inputs, Outputs, Tables, Vec
+from ..runtime import Runtime
 from .layout import ctypes_of, from_c, offset_of, to_c
 
 if TYPE_CHECKING:

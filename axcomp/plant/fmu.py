@@ -5,13 +5,9 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..fmu.archive import BuildError, file_bytes, generation_date
-from ..fmu.content import PACKAGE, version
-from ..fmu.description import Description
-from ..fmu.package import write_python_fmu
-from ..interface.variable import Variable
-from ..interface.variables import identifier
-from ..model.companions import fmu_sources
+from ..fmu import PACKAGE, BuildError, Description, file_bytes, generation_date, version, write_python_fmu
+from ..interface import Variable, identifier
+from ..model import fmu_sources
 from . import variables as declared
 from .machine import FILE_NAME, Plant
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..engine.motion import Array, Course, Limits
+from ..engine import Array, Course, Limits
 from .machine import FILE_NAME, Plant
 
 CYCLE_TIME = 0.001

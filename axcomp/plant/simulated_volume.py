@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ..engine.motion import Array
-from ..model.volumetric import LETTERS, LINEAR, NOMINAL_DIRECTIONS, Triple
+from ..engine import Array
+from ..model import LETTERS, LINEAR, NOMINAL_DIRECTIONS, Triple
 from .machine import Plant
 
 REFLECTORS = ((150.0, 0.0, -120.0), (-150.0, 0.0, -120.0), (0.0, 150.0, -250.0), (0.0, -150.0, -40.0))

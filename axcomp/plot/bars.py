@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
-from ..model.quantity import Quantity
+from ..model import Quantity
 from .content import Content, Records, span
 from .style import DOWN, UP, labelled, new_figure, printed
 

@@ -10,14 +10,23 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..engine.tcp_model import TcpModel
-from ..kinds import Tables, tables_of
-from ..kinds.shown import SPEED
-from ..model.curve import Curve
-from ..model.grid import Grid, Scatter
-from ..model.machine import Machine
-from ..model.quantity import Quantity, shown
-from ..model.volumetric import ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Volumetric, is_angle
+from ..engine import TcpModel
+from ..kinds import SPEED, Tables, tables_of
+from ..model import (
+    ERRORS,
+    LETTERS,
+    LINEAR,
+    ROTARY,
+    Curve,
+    ErrorTable,
+    Grid,
+    Machine,
+    Quantity,
+    Scatter,
+    Volumetric,
+    is_angle,
+    shown,
+)
 from .bars import Bars
 from .content import VOLUMETRIC, Content, Subject
 from .curves import Array, Curves

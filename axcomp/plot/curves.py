@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
 
-from ..model.curve import Curve
-from ..model.quantity import Quantity
+from ..model import Curve, Quantity
 from .content import Content, Records, span
 from .style import COLOURS, labelled, line_styles, new_figure, printed
 

@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from ..model.quantity import shown
+from ..model import shown
 from .content import Content, Records, span
 from .curves import Array
 from .style import new_figure, printed, sequential

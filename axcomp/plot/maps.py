@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
-from ..model.grid import Grid, Scatter
-from ..model.quantity import Quantity
+from ..model import Grid, Quantity, Scatter
 from .content import Content, Records, picked, span, spread
 from .curves import Array
 from .style import DIVERGING, labelled, new_figure, printed

@@ -1,1 +1,16 @@
 """The report: everything there is to say about a machine's compensations on one page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..model.face import face
+
+if TYPE_CHECKING:
+    from .report import REPEATS as REPEATS
+    from .report import make_report as make_report
+else:
+    __all__, __getattr__, __dir__ = face(
+        __name__,
+        report="REPEATS make_report",
+    )

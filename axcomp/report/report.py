@@ -11,23 +11,27 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from ..analysis.budget.contributions import Budget, budget_of
-from ..analysis.budget.picture import budget_figure
-from ..analysis.judgement import Evidence, Judgement
-from ..analysis.judgement.dynamics import rate
-from ..analysis.judgement.positions import sentence
-from ..analysis.judgement.sign import INTERCHANGED, REVERSED, WITHOUT, WRITTEN
-from ..bench.clock import Sample
-from ..bench.engine import bench_engine
+from ..analysis.budget import Budget, budget_figure, budget_of
+from ..analysis.judgement import INTERCHANGED, REVERSED, WITHOUT, WRITTEN, Evidence, Judgement, rate, sentence
+from ..bench import Sample, bench_engine
 from ..lists import Finding, Reading, Severity
-from ..measurement.iso230 import SYMBOLS, Iso230Result, evaluate
-from ..model.machine import CYCLE_TIME, AxisType, Machine
-from ..model.quantity import symbol
-from ..plot.content import Content, Records
-from ..plot.contents import contents_of
-from ..plot.pages import document, html_table, navigation, overview, picture, remarks, section
-from ..plot.style import new_figure, printed
-from ..plot.terminal import figure as number
+from ..measurement import SYMBOLS, Iso230Result, evaluate
+from ..model import CYCLE_TIME, AxisType, Machine, symbol
+from ..plot import (
+    Content,
+    Records,
+    contents_of,
+    document,
+    html_table,
+    navigation,
+    new_figure,
+    overview,
+    picture,
+    printed,
+    remarks,
+    section,
+)
+from ..plot import figure as number
 
 CONTRIBUTIONS_SHOWN = 12
 """Of each axis in the table of the budget."""

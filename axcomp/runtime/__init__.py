@@ -1,1 +1,21 @@
 """."""
+
+from __future__ import annotations
+
+from .compile import Compiled, CompileError, compile_tables
+from .runtime import ON_INSTANT, Runtime, UpdateError, initial_inputs
+from .snapshot import SnapshotError, identity_of, pack, unpack
+
+__all__ = [
+    "ON_INSTANT",
+    "CompileError",
+    "Compiled",
+    "Runtime",
+    "SnapshotError",
+    "UpdateError",
+    "compile_tables",
+    "identity_of",
+    "initial_inputs",
+    "pack",
+    "unpack",
+]

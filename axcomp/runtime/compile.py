@@ -7,13 +7,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..kernel.cycle import LARGEST
-from ..kernel.record import Vec, zero
-from ..kernel.records import AxisTable, Tables
-from ..kernel.switching import CYCLES_MAX
-from ..kinds import CompileError, kind_of, kinds_of
-from ..kinds.compiling import AxisCompiler
-from ..model.machine import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, Compensation, Machine
+from ..kernel import CYCLES_MAX, LARGEST, AxisTable, Tables, Vec, zero
+from ..kinds import AxisCompiler, CompileError, kind_of, kinds_of
+from ..model import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, Compensation, Machine
 from .compile_volumetric import compile_volumetric
 
 __all__ = ["CompileError", "Compiled", "compile_tables"]

@@ -6,19 +6,9 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from ..kernel.record import Vec
-from ..kernel.records import Tables
-from ..kernel.volumetric_records import (
-    INTERPOLATE_GRID,
-    INTERPOLATE_PATH,
-    INTERPOLATE_SCATTER,
-    ErrorBlock,
-    VolumetricTable,
-)
-from ..kinds import CompileError
-from ..kinds.compiling import append
-from ..model.machine import Machine
-from ..model.volumetric import (
+from ..kernel import INTERPOLATE_GRID, INTERPOLATE_PATH, INTERPOLATE_SCATTER, ErrorBlock, Tables, Vec, VolumetricTable
+from ..kinds import CompileError, append
+from ..model import (
     COMPENSATIONS_MAX,
     ERRORS,
     FULL_TURN,
@@ -29,6 +19,7 @@ from ..model.volumetric import (
     UNIT_TOLERANCE,
     ErrorTable,
     Interpolation,
+    Machine,
     Volumetric,
     is_angle,
     is_grid,

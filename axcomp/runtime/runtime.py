@@ -10,16 +10,24 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ..kernel.adopt import adopt_axis, adopt_volumetrics, keep_declared, update_error
-from ..kernel.compensations import has_notice
-from ..kernel.cycle import cycle
-from ..kernel.initial import set_initial_inputs
-from ..kernel.record import zero
-from ..kernel.records import ERROR_UPDATE, Inputs, Outputs, State, Tables
-from ..kernel.volumetric_switching import adopt_volumetric
+from ..kernel import (
+    ERROR_UPDATE,
+    Inputs,
+    Outputs,
+    State,
+    Tables,
+    adopt_axis,
+    adopt_volumetric,
+    adopt_volumetrics,
+    cycle,
+    has_notice,
+    keep_declared,
+    set_initial_inputs,
+    update_error,
+    zero,
+)
 from ..kinds import kinds_of
-from ..model.machine import CYCLE_TIME, Machine
-from ..model.volumetric import Volumetric
+from ..model import CYCLE_TIME, Machine, Volumetric
 from .compile import compile_tables
 from .snapshot import SnapshotError, identity_of, pack, unpack
 

@@ -9,7 +9,7 @@ from array import array
 from collections.abc import Iterator
 from typing import Annotated, Any, get_args, get_origin
 
-from ..kernel.record import Vec, fields_of
+from ..kernel import Vec, fields_of
 
 MAGIC = b"axcompS2"
 NUMBERS = (float, int, bool)

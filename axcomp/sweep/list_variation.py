@@ -8,12 +8,9 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import PurePosixPath
 
-from ..kinds import KINDS
-from ..kinds.parameter import key_of
-from ..lists import Document, Reading, read_machine
-from ..lists.catalogue import SPELLINGS
-from ..lists.grammar import number, string
-from ..model.machine import Axis, Machine
+from ..kinds import KINDS, key_of
+from ..lists import SPELLINGS, Document, Reading, number, read_machine, string
+from ..model import Axis, Machine
 
 Value = bool | int | float | str
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..engine.motion import Array
+from ..engine import Array
 
 Column = npt.NDArray[Any]
 

@@ -11,9 +11,8 @@ from itertools import product
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ..engine.motion import Limits
-from ..engine.trajectory import LIMITS, InputFile, Motion, Sine, read_input
-from ..model.machine import CYCLE_TIME
+from ..engine import LIMITS, InputFile, Limits, Motion, Sine, read_input
+from ..model import CYCLE_TIME
 from .list_variation import Value
 from .reductions import Reduction
 from .settings import Setting

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from ..fmu.archive import BuildError
-from ..fmu.packing import FOLDER, packed_lists
+from ..fmu import FOLDER, BuildError, packed_lists
 from ..lists import read_machine
 from .journal import SUFFIX, Journal, keys_of
 from .list_variation import ListEntry, varied
@@ -59,7 +58,7 @@ class Sweep:
 
         These need not be numbers, ``x`` has to be. Return the Matplotlib axes; ValueError if a column is not there.
         """
-        from ..plot.style import labelled, line_styles, new_figure  # loads Matplotlib
+        from ..plot import labelled, line_styles, new_figure
 
         numeric = [str(name) for name in self.table if pd.api.types.is_numeric_dtype(self.table[name])]
         for name in (x, y):
@@ -170,7 +169,7 @@ def run_sweep(
 
 
 def _performed(job: Job, runs: list[Run], scheduler: str | None, workers: int | None) -> Iterator[tuple[Run, Row]]:
-    from ..native.library import compiled_kernel
+    from ..native import compiled_kernel
     from .cluster import completed
 
     if scheduler is None:

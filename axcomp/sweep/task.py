@@ -18,11 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from ..engine.engine import Engine
-from ..engine.trajectory import LIMITS, Columns, InputFile, Motion, completed
-from ..fmu.archive import content_guid
+from ..engine import LIMITS, Columns, Engine, InputFile, Motion, completed
+from ..fmu import content_guid
 from ..lists import Finding, Reading, Severity, read_machine
-from ..model.machine import Machine
+from ..model import Machine
 from .list_variation import ListEntry, Table, Value, read_files, varied
 from .reductions import Column, Reduction
 from .settings import PARAMETERS

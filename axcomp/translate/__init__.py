@@ -13,7 +13,16 @@ divided by 0. A float is never taken for an int, nor an int for a float where âˆ
 Everything else that C would do otherwise, or not at all, is refused with file, line and a sentence (see ``subset``).
 """
 
+from __future__ import annotations
+
+from .__main__ import main
 from .emit import Translation, translate
 from .subset import Refusal, TranslationError
 
-__all__ = ["Refusal", "Translation", "TranslationError", "translate"]
+__all__ = [
+    "Refusal",
+    "Translation",
+    "TranslationError",
+    "main",
+    "translate",
+]

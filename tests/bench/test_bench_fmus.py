@@ -7,12 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from axcomp.bench.engine import bench_engine
-from axcomp.bench.fmu import bench_fmus
-from axcomp.fmu.native_package import NoCompilerError
+from axcomp.bench import bench_engine, bench_fmus
+from axcomp.fmu import NoCompilerError
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.native.library import SWITCH, compiled_kernel
+from axcomp.model import models
+from axcomp.native import SWITCH, compiled_kernel
 
 
 @pytest.mark.slow

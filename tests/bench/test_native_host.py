@@ -4,10 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from axcomp.bench.machines import machine_of
-from axcomp.bench.native_host import NativeHost, plan_of
-from axcomp.interface.variables import variables_of
-from axcomp.native.compiler import CompilerError, compiler_of, own_platform
+from axcomp.bench import NativeHost, machine_of, plan_of
+from axcomp.interface import variables_of
+from axcomp.native import CompilerError, compiler_of, own_platform
 
 MACHINE = machine_of(2, 10)
 

@@ -9,10 +9,10 @@ from xml.etree import ElementTree
 import pytest
 
 from axcomp.cli import main
-from axcomp.engine.engine import Engine
-from axcomp.fmu.instance import Instance
+from axcomp.engine import Engine
+from axcomp.fmu import Instance
 from axcomp.lists import read_machine
-from axcomp.model.machine import AxisType, ModuloRange
+from axcomp.model import AxisType, ModuloRange
 
 Capture = pytest.CaptureFixture[str]
 

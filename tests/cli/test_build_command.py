@@ -14,10 +14,8 @@ import pytest
 from axcomp.cli import main
 from axcomp.kinds import Leadscrew
 from axcomp.lists import write_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, Machine
-from axcomp.native.compiler import own_platform
-from axcomp.native.image import MAGIC
+from axcomp.model import Axis, Machine, models
+from axcomp.native import MAGIC, own_platform
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,11 +8,8 @@ import pytest
 from axcomp.cli import main
 from axcomp.cli.check import STATUS_MAX
 from axcomp.kinds import Cross
-from axcomp.lists import write_machine
-from axcomp.lists.catalogue import CATALOGUE
-from axcomp.lists.reference import PAGE, page
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, Machine
+from axcomp.lists import CATALOGUE, PAGE, page, write_machine
+from axcomp.model import Axis, Machine, models
 
 Capture = pytest.CaptureFixture[str]
 

@@ -13,9 +13,8 @@ import pytest
 
 from axcomp.cli import main
 from axcomp.fmu import native_package
-from axcomp.model.companions import models
-from axcomp.sweep.spec import read_spec
-from axcomp.sweep.sweep import job_of
+from axcomp.model import models
+from axcomp.sweep import job_of, read_spec
 
 SUFFIXES = {".lis", ".exc", ".csv"}
 _watching: list[Counter[str]] = []

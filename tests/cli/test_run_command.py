@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
-from axcomp.engine.engine import Engine
+from axcomp.engine import Engine
 from axcomp.kinds import Leadscrew
 from axcomp.lists import write_machine
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 
 @pytest.fixture

@@ -7,12 +7,22 @@ from drawn_tables import changed
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from axcomp.convert.formats import FORMATS, recognized, written
-from axcomp.convert.machines import machine_with, tables_of
-from axcomp.convert.table import CompensationTable, beginning_at, largest_difference, on_equidistant_points
-from axcomp.convert.text import CannotHoldError, FormatError, Options
+from axcomp.convert import (
+    FORMATS,
+    CannotHoldError,
+    CompensationTable,
+    FormatError,
+    Options,
+    beginning_at,
+    largest_difference,
+    machine_with,
+    on_equidistant_points,
+    recognized,
+    tables_of,
+    written,
+)
 from axcomp.kinds import KINDS, Friction, Plane
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 UNEVEN = CompensationTable.of("X", "X", (0.0, 10.0, 30.0, 45.0), (0.0, 0.01, 0.02, 0.0))
 BILATERAL = CompensationTable.of("X", "X", (0.0, 10.0), (0.0, 0.01), (0.001, 0.012))

@@ -9,7 +9,7 @@ import pytest
 from axcomp.cli import convert, main
 from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import read_machine, write_machine
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 SCREW = Leadscrew((0.0, 10.0, 20.0), (0.0, 0.004, 0.001), (0.002, 0.005, 0.003), manual_activation=True)
 MACHINE = Machine(

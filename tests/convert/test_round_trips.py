@@ -7,10 +7,7 @@ from drawn_tables import HALF_RESOLUTION, changed, tables
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.convert.formats import FORMATS, written
-from axcomp.convert.machines import machine_with, tables_of
-from axcomp.convert.table import CompensationTable, largest_difference
-from axcomp.convert.text import Options
+from axcomp.convert import FORMATS, CompensationTable, Options, largest_difference, machine_with, tables_of, written
 
 HOLDS: dict[str, Callable[[], st.SearchStrategy[CompensationTable]]] = {
     "enc-comp": lambda: tables(even=True, bilateral=False, cross=False),

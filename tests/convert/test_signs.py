@@ -3,17 +3,25 @@
 import numpy as np
 import pytest
 
-from axcomp.convert.cec import read_cec, write_cec
-from axcomp.convert.enc_comp import read_enc_comp, write_enc_comp
-from axcomp.convert.heidenhain import read_heidenhain, write_heidenhain, write_itnc
-from axcomp.convert.linuxcnc import read_linuxcnc, write_linuxcnc
-from axcomp.convert.machines import machine_with, tables_of
-from axcomp.convert.plain_csv import read_csv
-from axcomp.convert.table import CompensationTable
-from axcomp.convert.text import Options
+from axcomp.convert import (
+    CompensationTable,
+    Options,
+    machine_with,
+    read_cec,
+    read_csv,
+    read_enc_comp,
+    read_heidenhain,
+    read_linuxcnc,
+    tables_of,
+    write_cec,
+    write_enc_comp,
+    write_heidenhain,
+    write_itnc,
+    write_linuxcnc,
+)
 from axcomp.kinds import Cross, Leadscrew
-from axcomp.model.machine import Axis, Machine
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, Machine
+from axcomp.runtime import Runtime
 
 POSITIONS = (0.0, 100.0, 200.0)
 ERROR = (0.0, 0.010, 0.030)

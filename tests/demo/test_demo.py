@@ -10,10 +10,8 @@ import matplotlib.image
 import pytest
 
 from axcomp.cli.demo import PICTURE
-from axcomp.demo.picture import draw
-from axcomp.demo.run import BuildError, Demo, DemoError, demonstrate
-from axcomp.model.companions import models
-from axcomp.model.machine import CYCLE_TIME
+from axcomp.demo import BuildError, Demo, DemoError, demonstrate, draw
+from axcomp.model import CYCLE_TIME, models
 
 
 def check(demo: Demo) -> None:

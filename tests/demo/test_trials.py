@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from axcomp.demo.evaluation import Outcome, table
-from axcomp.demo.trials import Trial, trials_of
-from axcomp.engine.motion import Setpoints
+from axcomp.demo import Outcome, Trial, table, trials_of
+from axcomp.engine import Setpoints
 from axcomp.kinds import KIND_NAMES
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.plant.simulated import load_plant
+from axcomp.model import models
+from axcomp.plant import load_plant
 
 CYCLE = 0.001
 TRIED = ("cross", "plane", "crosstalk", "leadscrew", "friction")

@@ -7,11 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from axcomp.demo.evaluation import Trace, label, outcomes, table
-from axcomp.demo.trials import TCP, VOLUMETRIC, Trial, trials_of, volumetric_trials
+from axcomp.demo import TCP, VOLUMETRIC, Trace, Trial, label, outcomes, table, trials_of, volumetric_trials
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Machine
+from axcomp.model import Machine, models
 
 CYCLE = 0.001
 

@@ -8,8 +8,8 @@ import pytest
 
 from axcomp import Engine, Machine
 from axcomp.kinds import Cross, Friction, Leadscrew
-from axcomp.model.machine import Axis
-from axcomp.native.library import compiled_kernel
+from axcomp.model import Axis
+from axcomp.native import compiled_kernel
 
 
 @pytest.fixture(params=["compiled", "python"], autouse=True)

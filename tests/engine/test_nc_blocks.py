@@ -4,17 +4,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.engine.nc_commands import (
+from axcomp.engine import (
     Assignment,
     AxisCommand,
     AxisVariable,
     Command,
+    NcError,
     Variable,
     VolumetricSwitch,
     VolumetricUpdate,
     parse_block,
 )
-from axcomp.engine.nc_scanner import NcError
 
 
 @pytest.mark.parametrize(

@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from axcomp.engine.engine import Engine, Result
-from axcomp.engine.nc_scanner import NcError
+from axcomp.engine import Engine, NcError, Result
 from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.lists import write_machine
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.model.volumetric import ErrorTable, Volumetric
-from axcomp.runtime.runtime import UpdateError
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, Volumetric
+from axcomp.runtime import UpdateError
 
 N = 20
 

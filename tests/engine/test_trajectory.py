@@ -5,9 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from axcomp.engine.motion import Limits
-from axcomp.engine.trajectory import InputError, Motion, Sine, completed, read_input
-from axcomp.model.companions import models
+from axcomp.engine import InputError, Limits, Motion, Sine, completed, read_input
+from axcomp.model import models
 
 DT = 0.001
 

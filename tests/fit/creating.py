@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from axcomp.measurement.positioning import Positioning
-from axcomp.model.companions import models
-from axcomp.plant.simulated import load_plant, positioning
+from axcomp.measurement import Positioning
+from axcomp.model import models
+from axcomp.plant import load_plant, positioning
 
 THREE_AXIS = models() / "three_axis"
 

@@ -12,12 +12,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from axcomp.cli import main
-from axcomp.engine.engine import Engine
-from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options, create
-from axcomp.fit.axis_list import AxisList
+from axcomp.engine import Engine
+from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, AxisList, CannotCreateError, Options, create
 from axcomp.kinds import Backlash
 from axcomp.lists import read_machine
-from axcomp.measurement.columns import MeasurementError
+from axcomp.measurement import MeasurementError
 
 create_backlash = partial(create, "backlash")
 TARGETS = np.arange(-400.0, 401.0, 50.0)

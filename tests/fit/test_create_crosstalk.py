@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from creating import copied_lists, plant
 
-from axcomp.engine.engine import Engine
-from axcomp.fit import LEFT_OUT, PREDICTED, CannotCreateError, Options, TargetList, create
-from axcomp.fit.crosstalk import AccelerationTests
+from axcomp.engine import Engine
+from axcomp.fit import LEFT_OUT, PREDICTED, AccelerationTests, CannotCreateError, Options, TargetList, create
 from axcomp.lists import read_machine
-from axcomp.model.machine import Axis, Machine
-from axcomp.plant.simulated import acceleration_test
+from axcomp.model import Axis, Machine
+from axcomp.plant import acceleration_test
 
 create_crosstalk = partial(create, "crosstalk")
 A = 2000.0

@@ -8,10 +8,9 @@ from creating import copied_lists, plant
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options, TargetList, create
-from axcomp.fit.friction import FrictionReadings
+from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, FrictionReadings, Options, TargetList, create
 from axcomp.lists import read_machine
-from axcomp.plant.simulated import friction_current
+from axcomp.plant import friction_current
 
 create_friction = partial(create, "friction")
 

@@ -9,13 +9,12 @@ from creating import copied_lists, measured, plant, positioning_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.engine.engine import Engine
+from axcomp.engine import Engine
 from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options, TargetList, create
 from axcomp.lists import read_machine
-from axcomp.measurement.columns import MeasurementError
-from axcomp.measurement.iso230 import evaluate
-from axcomp.model.machine import Machine
-from axcomp.plant.simulated import straightness
+from axcomp.measurement import MeasurementError, evaluate
+from axcomp.model import Machine
+from axcomp.plant import straightness
 
 create_leadscrew, create_cross = (partial(create, kind) for kind in ("leadscrew", "cross"))
 TARGETS = np.arange(-500.0, 501.0, 25.0)

@@ -10,11 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.fit import LEFT_OUT, PREDICTED, CannotCreateError, Options, TargetList, create
-from axcomp.fit.plane import Flatness
+from axcomp.fit import LEFT_OUT, PREDICTED, CannotCreateError, Flatness, Options, TargetList, create
 from axcomp.lists import read_machine
-from axcomp.measurement.columns import MeasurementError
-from axcomp.plant.simulated import flatness
+from axcomp.measurement import MeasurementError
+from axcomp.plant import flatness
 
 create_plane = partial(create, "plane")
 

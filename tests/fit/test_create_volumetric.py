@@ -13,20 +13,14 @@ from scipy.spatial.transform import Rotation
 from test_volumetric_identification import PLAIN, X, Y, Z, over, places_of, simulated
 
 from axcomp.cli import main
-from axcomp.engine.tcp_model import TcpModel
-from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, Options, create
-from axcomp.fit.volumetric_identification import TcpDeviations
-from axcomp.fit.volumetric_target import VolumetricTarget
-from axcomp.kernel.record import zeros
-from axcomp.kernel.volumetric_errors import errors_at
-from axcomp.kernel.volumetric_model import correction_with
+from axcomp.engine import TcpModel
+from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, Options, TcpDeviations, VolumetricTarget, create
+from axcomp.kernel import correction_with, errors_at, zeros
 from axcomp.lists import read_machine
-from axcomp.measurement.columns import MeasurementError
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, Machine
-from axcomp.model.volumetric import ErrorTable
-from axcomp.plant.simulated import load_plant
-from axcomp.runtime.compile import compile_tables
+from axcomp.measurement import MeasurementError
+from axcomp.model import Axis, ErrorTable, Machine, models
+from axcomp.plant import load_plant
+from axcomp.runtime import compile_tables
 
 FIVE_AXIS = models() / "five_axis"
 FINE = np.linspace(-400.0, 400.0, 161)

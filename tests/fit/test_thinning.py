@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.fit.thinning import closest, deviation, fewest
+from axcomp.fit import closest, deviation, fewest
 
 
 @st.composite

@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from axcomp.engine.tcp_model import TcpModel
-from axcomp.fit import CannotCreateError
-from axcomp.fit.volumetric_basis import Sought, sought_errors
-from axcomp.fit.volumetric_identification import Identifier, TcpDeviations
-from axcomp.measurement.columns import MeasurementError
-from axcomp.model.volumetric import ErrorTable, Volumetric, is_angle
+from axcomp.engine import TcpModel
+from axcomp.fit import CannotCreateError, Identifier, Sought, TcpDeviations, sought_errors
+from axcomp.measurement import MeasurementError
+from axcomp.model import ErrorTable, Volumetric, is_angle
 
 AXES = (("X", 1), ("Y", 2), ("Z", 3))
 TOOL = (10.0, -20.0, -150.0)

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 from fmu_machines import three_axes
 
-from axcomp.fmu.package import package_axcomp
+from axcomp.fmu import package_axcomp
 from axcomp.lists import write_machine
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from frozen import GUID
 
-from axcomp.fmu.archive import BuildError, content_guid, generation_date, write_fmu
+from axcomp.fmu import BuildError, content_guid, generation_date, write_fmu
 
 FILES = {"resources/b.txt": b"b", "modelDescription.xml": b"<x/>", "binaries/a.so": b"a" * 1000}
 

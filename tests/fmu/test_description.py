@@ -6,9 +6,9 @@ import pytest
 from fmu_machines import three_axes
 from frozen import DEPENDENCIES, UNITS, VARIABLES, VOLUMETRIC_DEPENDENCIES, every_variable, two_axes
 
-from axcomp.fmu.description import Description, model_description
-from axcomp.interface.variables import variables_of
-from axcomp.model.machine import Machine
+from axcomp.fmu import Description, model_description
+from axcomp.interface import variables_of
+from axcomp.model import Machine
 
 DESCRIPTION = Description("axcomp", 'Corrects "X" & <Y>', 0.002, "1.2.3", capabilities={"needsExecutionTool": True})
 

@@ -17,13 +17,11 @@ from fmpy.validation import validate_fmu
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine.engine import Engine
-from axcomp.fmu import package
-from axcomp.fmu.package import package_axcomp
+from axcomp.engine import Engine
+from axcomp.fmu import package, package_axcomp
 from axcomp.lists import write_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Machine
-from axcomp.plant.fmu import package_plant
+from axcomp.model import Machine, models
+from axcomp.plant import package_plant
 
 Outputs = list[dict[str, Any]]
 

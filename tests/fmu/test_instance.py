@@ -15,15 +15,13 @@ from typing import Any
 import pytest
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine.engine import Engine
+from axcomp.engine import Engine
+from axcomp.fmu import MAGIC, Instance
 from axcomp.fmu import instance as instance_module
-from axcomp.fmu.instance import Instance
-from axcomp.fmu.saved import MAGIC
-from axcomp.interface.variable import Value
-from axcomp.interface.variables import by_name, variables_of
-from axcomp.kinds.parameter import Severity
+from axcomp.interface import Value, by_name, variables_of
+from axcomp.kinds import Severity
 from axcomp.lists import write_machine
-from axcomp.model.machine import Machine
+from axcomp.model import Machine
 
 VARIABLES = by_name(variables_of(three_axes()))
 OUTPUTS = [variable for variable in VARIABLES.values() if variable.causality == "output"]

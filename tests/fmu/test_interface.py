@@ -5,9 +5,8 @@ from dataclasses import replace
 import pytest
 from fmu_machines import three_axes
 
-from axcomp.fmu.packed_interface import Interface
-from axcomp.model.machine import AXES_MAX, Axis, AxisType, Machine
-from axcomp.model.volumetric import Volumetric
+from axcomp.fmu import Interface
+from axcomp.model import AXES_MAX, Axis, AxisType, Machine, Volumetric
 
 INTERFACE = Interface.of(three_axes(), "machine/hochlauf.lis", 0.001)
 

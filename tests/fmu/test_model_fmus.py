@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv
-from axcomp.demo.examples.trajectories import TRAJECTORIES
-from axcomp.fmu.package import package_axcomp
-from axcomp.model.companions import models
+from axcomp.demo.examples import EXPECTED, INPUT, TRAJECTORIES, read_csv
+from axcomp.fmu import package_axcomp
+from axcomp.model import models
 
 
 @pytest.mark.parametrize("name", sorted(TRAJECTORIES))

@@ -12,12 +12,11 @@ import fmpy
 import pytest
 from fmu_machines import three_axes
 
-from axcomp.fmu.archive import BuildError
-from axcomp.fmu.package import package_axcomp
+from axcomp.fmu import BuildError, package_axcomp
 from axcomp.kinds import Leadscrew
 from axcomp.lists import read_machine, write_machine
-from axcomp.model.machine import Axis, Machine
-from axcomp.plant.fmu import package_plant
+from axcomp.model import Axis, Machine
+from axcomp.plant import package_plant
 
 
 def contents(fmu: Path) -> dict[str, bytes]:

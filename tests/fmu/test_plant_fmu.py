@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 from fmu_host import CYCLE, Host, in_child
 
-from axcomp.model.companions import models
-from axcomp.plant.fmu import package_plant
-from axcomp.plant.simulated import load_plant
+from axcomp.model import models
+from axcomp.plant import load_plant, package_plant
 
 MODEL = models() / "three_axis"
 AXES = ("X", "Y", "Z")

@@ -4,10 +4,9 @@ import ast
 import sys
 from pathlib import Path
 
-from axcomp.fmu.package import PACKAGE
-from axcomp.fmu.sources import needed_files, renamed_sources
+from axcomp.fmu import PACKAGE, needed_files, renamed_sources
 from axcomp.kinds import KINDS
-from axcomp.model.companions import fmu_sources
+from axcomp.model import fmu_sources
 
 SLAVE = fmu_sources() / "axcomp_slave.py"
 

@@ -1,5 +1,4 @@
-from axcomp.interface.reference import PAGE, README, readme_with_section, reference_page
-from axcomp.interface.variables import AXIS_DECLARATIONS
+from axcomp.interface import AXIS_DECLARATIONS, PAGE, README, readme_with_section, reference_page
 
 
 def test_the_page_is_current() -> None:

@@ -8,15 +8,12 @@ from typing import Any
 import pytest
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine.engine import Engine
-from axcomp.interface.variable import with_causality
-from axcomp.interface.variables import AXIS_DECLARATIONS, by_name, slot_of, variables_of
-from axcomp.kernel.record import fields_of, zero
-from axcomp.kernel.records import AxisInputs, AxisOutputs
+from axcomp.engine import Engine
+from axcomp.interface import AXIS_DECLARATIONS, by_name, slot_of, variables_of, with_causality
+from axcomp.kernel import AxisInputs, AxisOutputs, fields_of, zero
 from axcomp.kinds import Cross, Friction, Leadscrew
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import initial_inputs
+from axcomp.model import Axis, AxisType, Machine
+from axcomp.runtime import compile_tables, initial_inputs
 
 NO_CROSS = Cross(1, (0.0, 1.0), (0.0, 0.0))
 

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from axcomp.interface.slot import slot_in
+from axcomp.interface import slot_in
 from axcomp.kinds import KIND_NAMES
-from axcomp.model.machine import Machine
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Machine
+from axcomp.runtime import Runtime
 
 OUTPUTS = {
     **{

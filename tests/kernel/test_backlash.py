@@ -6,8 +6,8 @@ from driving import drive, forward, soft, to_and_fro, walk
 from numpy.typing import NDArray
 
 from axcomp.kinds import Backlash, Cross, Leadscrew
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
+from axcomp.runtime import Runtime
 
 LOSE = 0.03
 

@@ -5,7 +5,7 @@ import pytest
 from driving import drive, to_and_fro
 
 from axcomp.kinds import Cross, Leadscrew
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 X_POSITIONS = (-40.0, -10.0, 0.0, 0.5, 3.0, 80.0)
 CORRECTIONS = (0.01, -0.02, 0.005, 0.03, 0.0, -0.01)

@@ -12,8 +12,8 @@ from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 from scipy.spatial import ConvexHull
 
 from axcomp.kinds import Crosstalk, CrosstalkCurve, CrosstalkTest
-from axcomp.model.machine import Axis, Machine
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, Machine
+from axcomp.runtime import Runtime
 
 ACCELERATION, DECELERATION = 2000.0, -1600.0
 

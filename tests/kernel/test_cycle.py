@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from driving import OUTPUTS, drive, to_and_fro
 
-from axcomp.kernel.records import ERROR_INPUT
+from axcomp.kernel import ERROR_INPUT
 from axcomp.kinds import Cross, CrosstalkCurve, Friction, Leadscrew, Plane
-from axcomp.model.machine import Axis, Machine
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, Machine
+from axcomp.runtime import Runtime
 
 LINE = tuple(float(x) for x in range(-100, 101, 50))
 BAD = [float("nan"), float("inf"), float("-inf"), 1e15, -1e15, 1e308]

@@ -10,17 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.interface.slot import slot_in
-from axcomp.kernel.compensations import CROSS
-from axcomp.kernel.cycle import cycle
-from axcomp.kernel.fit import tables_fit
-from axcomp.kernel.record import Vec, fields_of, zero
-from axcomp.kernel.records import Outputs, State, Tables
+from axcomp.interface import slot_in
+from axcomp.kernel import CROSS, Outputs, State, Tables, Vec, cycle, fields_of, tables_fit, zero
 from axcomp.kinds import Backlash, Temperature
 from axcomp.lists import read_machine
-from axcomp.model.machine import Axis, Machine
-from axcomp.runtime.compile import Compiled, compile_tables
-from axcomp.runtime.runtime import initial_inputs
+from axcomp.model import Axis, Machine
+from axcomp.runtime import Compiled, compile_tables, initial_inputs
 
 MODELS = Path(__file__).parents[2] / "models"
 WRONG = (-(2**31), -1, 10**6, 2**31 - 1)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from axcomp.kinds import Cross, Crosstalk, CrosstalkTest, Leadscrew, Plane
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
 
 TURNS = np.array([-720.0, -360.0, 0.0, 360.0, 3600.0])
 POINTS = np.array([-90.0, -30.0, 0.0, 45.0, 90.0])

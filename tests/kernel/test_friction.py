@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from axcomp.kinds import Friction
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
+from axcomp.runtime import Runtime
 
 T = 1e-3
 VELOCITIES, CURRENTS = (0.5, 2.0, 10.0, 50.0), (1.0, 0.4, 0.7, 2.0)

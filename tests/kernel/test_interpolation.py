@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.kernel.interpolation import Curve, Lookup, curve_value, fold, nearest
-from axcomp.kernel.record import zero
+from axcomp.kernel import Curve, Lookup, curve_value, fold, nearest, zero
 
 numbers = st.floats(-1e6, 1e6)
 

@@ -6,7 +6,7 @@ from driving import drive, forward, soft, to_and_fro, walk
 from numpy.typing import NDArray
 
 from axcomp.kinds import Cross, CrosstalkCurve, Leadscrew, Plane
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
 
 POSITIONS = (-50.0, -20.0, -19.5, 0.0, 30.0, 31.0, 90.0)
 POSITIVE = (0.010, -0.004, 0.006, 0.000, -0.020, 0.013, 0.005)

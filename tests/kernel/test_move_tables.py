@@ -9,16 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.kernel.adopt import move_axis_table
-from axcomp.kernel.cycle import cycle
-from axcomp.kernel.fit import tables_fit
-from axcomp.kernel.record import zero
-from axcomp.kernel.records import Outputs, State, Tables
+from axcomp.kernel import Outputs, State, Tables, cycle, move_axis_table, tables_fit, zero
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Machine
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import initial_inputs
+from axcomp.model import Machine, models
+from axcomp.runtime import compile_tables, initial_inputs
 
 
 def moved(tables: Tables, pool: list[float], before: int) -> tuple[Tables, list[float]]:

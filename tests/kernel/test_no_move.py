@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from axcomp.kinds import Cross, CrosstalkCurve, Leadscrew, Plane
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 N = 8
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
 from axcomp.kinds import Plane
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 
 def machine(corrections: np.ndarray, start: tuple[float, float], interval: tuple[float, float], **options) -> Machine:

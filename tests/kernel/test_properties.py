@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from strategies import machines
 
 from axcomp.kinds import KIND_NAMES, Backlash, Cross, Crosstalk, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
-from axcomp.model.machine import Axis, Machine, ModuloRange
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, Machine, ModuloRange
+from axcomp.runtime import Runtime
 
 EVENTS = (
     "referenced",

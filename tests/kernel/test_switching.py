@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
 
 from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 N = 6
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from axcomp.kinds import Cross, Leadscrew, Temperature
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
+from axcomp.runtime import Runtime
 
 POSITION, OFFSET, COEFFICIENT = 120.0, 0.015, 11.5e-6
 LIST = Temperature(POSITION, OFFSET, COEFFICIENT)

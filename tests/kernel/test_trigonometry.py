@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.kernel.switching import ramp
-from axcomp.kernel.trigonometry import cosine, sine
+from axcomp.kernel import cosine, ramp, sine
 
 TWO_PI = Decimal("6.28318530717958647692528676655900576839433879875021164194988918")
 

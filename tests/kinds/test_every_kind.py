@@ -13,12 +13,9 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
-from axcomp.engine.engine import Engine
-from axcomp.engine.nc_commands import AxisCommand, parse_block
-from axcomp.interface.errors import ERRORS
-from axcomp.interface.variable import BLOCK, with_causality
-from axcomp.interface.variables import AXIS_DECLARATIONS, by_name, variables_of
-from axcomp.kernel.fit import tables_fit
+from axcomp.engine import AxisCommand, Engine, parse_block
+from axcomp.interface import AXIS_DECLARATIONS, BLOCK, ERRORS, by_name, variables_of, with_causality
+from axcomp.kernel import tables_fit
 from axcomp.kinds import (
     KIND_NAMES,
     KINDS,
@@ -28,14 +25,13 @@ from axcomp.kinds import (
     Friction,
     Kind,
     Leadscrew,
+    Parameter,
     Plane,
     Temperature,
 )
-from axcomp.kinds.parameter import Parameter
 from axcomp.lists import CODES, read_machine, write_machine
-from axcomp.model.machine import Axis, Compensation, Machine
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, Compensation, Machine
+from axcomp.runtime import Runtime, compile_tables
 
 EXAMPLES: dict[str, Compensation] = {
     "cross": Cross(1, (-100.0, 0.0, 100.0), (0.01, 0.02, -0.03), n_cycles=4),

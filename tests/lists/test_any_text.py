@@ -7,11 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.kinds.parameter import ListKind, Parameter
-from axcomp.lists import Reading, read_machine, write_machine
-from axcomp.lists.catalogue import CATALOGUE
-from axcomp.model.machine import AXES_MAX, Machine
-from axcomp.runtime.compile import compile_tables
+from axcomp.kinds import ListKind, Parameter
+from axcomp.lists import CATALOGUE, Reading, read_machine, write_machine
+from axcomp.model import AXES_MAX, Machine
+from axcomp.runtime import compile_tables
 
 NUMBERS = ("0", "1", "2", "3", "15", "-1", "0.5", "1e-300", "1e99", "140", "1000", "1e300", "0x4", "nan", "inf")
 LIMITS = [str(number + i) for number in (2**15, 2**16, 2**31, 2**32, 2**63, -(2**15), -(2**31)) for i in (-1, 0)]

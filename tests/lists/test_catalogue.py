@@ -2,8 +2,8 @@
 
 import pytest
 
-from axcomp.kinds.parameter import DataType, ListKind, Manual, Quantity, Range
-from axcomp.lists.catalogue import CATALOGUE, SPELLINGS, parameter
+from axcomp.kinds import DataType, ListKind, Manual, Quantity, Range
+from axcomp.lists import CATALOGUE, SPELLINGS, parameter
 
 BOTH = {*range(1, 34), *range(41, 48), *range(57, 68)} - {3, 8}
 

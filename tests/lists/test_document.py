@@ -4,11 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.kinds.parameter import ListKind
-from axcomp.lists.catalogue import CATALOGUE
-from axcomp.lists.document import Document
-from axcomp.lists.findings import Findings
-from axcomp.lists.values import read_values
+from axcomp.kinds import ListKind
+from axcomp.lists import CATALOGUE, Document, Findings, read_values
 
 OWNED = [f"kw.ssfk.{n}" for n in ("unit", "kw_nr_max", "interval", "kw_startpos", "bilateral")]
 OWNED += [f"kw.ssfk.table[i].{n}" for n in ("pos", "neg", "setpoint")]

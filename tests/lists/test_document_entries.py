@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.kinds.parameter import DataType, ListKind
-from axcomp.lists import Document, read_machine, saving
-from axcomp.lists.catalogue import CATALOGUE
+from axcomp.kinds import DataType, ListKind
+from axcomp.lists import CATALOGUE, Document, read_machine, saving
 
 LIST = """\
 # Maß

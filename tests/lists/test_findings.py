@@ -22,9 +22,8 @@ from finding_cases import (
 )
 from frozen import SEVERITIES
 
-from axcomp.lists import CODES, Finding, ListError, Reading, Severity, read_machine
-from axcomp.lists.findings import LIMIT, Findings
-from axcomp.model.machine import Axis
+from axcomp.lists import CODES, LIMIT, Finding, Findings, ListError, Reading, Severity, read_machine
+from axcomp.model import Axis
 
 ReadLists = Callable[..., Reading]
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.lists.grammar import Entry, decode, entries, number, string
+from axcomp.lists import Entry, decode, entries, number, string
 
 
 def read(text: str) -> tuple[list[tuple[str, str]], list[tuple[str, int]]]:

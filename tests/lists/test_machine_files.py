@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from axcomp.lists import Reading, read_machine
-from axcomp.model.machine import AxisType, ModuloRange
+from axcomp.model import AxisType, ModuloRange
 
 ReadLists = Callable[..., Reading]
 

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.kinds.parameter import Quantity
-from axcomp.kinds.units import METRIC, Gear, convert, equidistant, in_list
+from axcomp.kinds import METRIC, Gear, Quantity, convert, equidistant, in_list
 from axcomp.lists import Reading
 
 ReadLists = Callable[..., Reading]

@@ -11,8 +11,8 @@ from strategies import machines
 
 from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import ListError, Severity, format_compensation_list, read_machine, write_machine
-from axcomp.model.machine import Axis, Machine
-from axcomp.runtime.compile import compile_tables
+from axcomp.model import Axis, Machine
+from axcomp.runtime import compile_tables
 
 
 @given(machines())

@@ -9,9 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.measurement.iso230 import PARAMETERS, evaluate
-from axcomp.measurement.positioning import Positioning
-from axcomp.measurement.uncertainty import Conditions
+from axcomp.measurement import PARAMETERS, Conditions, Positioning, evaluate
 
 TOLERANCE = 1e-6  # µm
 

@@ -5,9 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.measurement.columns import MeasurementError
-from axcomp.measurement.positioning import read_positioning
-from axcomp.measurement.readings import joined
+from axcomp.measurement import MeasurementError, joined, read_positioning
 
 RTL = """\
 HEADER::

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from axcomp.cli import main
-from axcomp.model.companions import machine_path, models
+from axcomp.model import machine_path, models
 
 
 @pytest.fixture(autouse=True)

@@ -8,8 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import make_interp_spline
 
-from axcomp.model.curve import Curve
-from axcomp.model.quantity import Quantity, shown
+from axcomp.model import Curve, Quantity, shown
 
 POSITION, CORRECTION = Quantity("position", "mm", "X"), Quantity("correction", "mm", "Y")
 WHOLE = st.integers(-4000, 4000)

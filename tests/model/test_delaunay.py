@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, Delaunay
 
-from axcomp.model.delaunay import Triangulation, triangulate
+from axcomp.model import Triangulation, triangulate
 
 Points = NDArray[np.float64]
 

@@ -6,11 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 
-from axcomp.engine.engine import Engine
+from axcomp.engine import Engine
 from axcomp.kinds import Crosstalk, CrosstalkTest, tables_of
-from axcomp.model.grid import Grid, Scatter
-from axcomp.model.machine import Axis, Machine
-from axcomp.model.quantity import Quantity
+from axcomp.model import Axis, Grid, Machine, Quantity, Scatter
 
 OVER = (Quantity("position", "mm", "Y"), Quantity("position", "mm", "Z"))
 OF = Quantity("correction", "mm", "X")

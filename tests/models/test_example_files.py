@@ -9,15 +9,21 @@ import numpy as np
 import pytest
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv, write_expected, write_input, write_lists
-from axcomp.demo.examples.machines import MACHINES
-from axcomp.demo.examples.trajectories import TRAJECTORIES
-from axcomp.engine.engine import Engine
-from axcomp.kinds import KINDS, Crosstalk, CrosstalkCurve
-from axcomp.kinds.parameter import ListKind, Severity
+from axcomp.demo.examples import (
+    EXPECTED,
+    INPUT,
+    MACHINES,
+    TRAJECTORIES,
+    read_csv,
+    write_expected,
+    write_input,
+    write_lists,
+)
+from axcomp.engine import Engine
+from axcomp.kinds import KINDS, Crosstalk, CrosstalkCurve, ListKind, Severity
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.plant.simulated import load_plant
+from axcomp.model import models
+from axcomp.plant import load_plant
 
 MODELS = sorted(TRAJECTORIES)
 MANUALS = models() / "manual_examples"

@@ -6,9 +6,9 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv
+from axcomp.demo.examples import EXPECTED, INPUT, read_csv
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
+from axcomp.model import models
 
 Array = npt.NDArray[np.float64]
 

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 from fmu_machines import three_axes
 
-from axcomp.fmu.native_package import NoCompilerError, package_native
+from axcomp.fmu import NoCompilerError, package_native
 from axcomp.lists import write_machine
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from strategies import machines
 
 from axcomp import Engine, Machine
-from axcomp.native.library import compiled_kernel
+from axcomp.native import compiled_kernel
 
 CYCLES = 5000
 

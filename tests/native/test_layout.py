@@ -11,9 +11,8 @@ from typing import Annotated
 
 import pytest
 
-from axcomp.kernel.record import fields_of, zero
-from axcomp.kernel.records import Inputs, Outputs, State, Tables
-from axcomp.native.layout import ctypes_of, from_c, to_c
+from axcomp.kernel import Inputs, Outputs, State, Tables, fields_of, zero
+from axcomp.native import ctypes_of, from_c, to_c
 from axcomp.native.places import _layout_of
 
 SOURCES = Path(__file__).parents[2] / "fmu_src" / "native"

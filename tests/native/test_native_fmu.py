@@ -13,12 +13,10 @@ from fmpy.fmi1 import FMICallException
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.demo.examples.files import EXPECTED, INPUT, read_csv
-from axcomp.demo.examples.trajectories import TRAJECTORIES
-from axcomp.engine.engine import Engine
-from axcomp.fmu.native_package import package_native
-from axcomp.model.companions import models
-from axcomp.model.machine import Machine
+from axcomp.demo.examples import EXPECTED, INPUT, TRAJECTORIES, read_csv
+from axcomp.engine import Engine
+from axcomp.fmu import package_native
+from axcomp.model import Machine, models
 
 Rows = list[dict[str, Any]]
 

@@ -13,16 +13,21 @@ import pytest
 from fmpy.validation import validate_fmu
 from fmu_machines import three_axes
 
-from axcomp.fmu.archive import BuildError
-from axcomp.fmu.native_package import HEADERS, SOURCES, NoCompilerError, package_native, write_image
-from axcomp.fmu.package import package_axcomp
-from axcomp.interface.variables import Naming
+from axcomp.fmu import HEADERS, SOURCES, BuildError, NoCompilerError, package_axcomp, package_native, write_image
+from axcomp.interface import Naming
 from axcomp.lists import write_machine
-from axcomp.model.companions import fmu_sources, models
-from axcomp.native.compiler import PLATFORMS, compile_library, compiler_of, has_cross_compiler, own_platform
-from axcomp.native.image import image_of
-from axcomp.native.places import layout_header, places_source
-from axcomp.runtime.compile import compile_tables
+from axcomp.model import fmu_sources, models
+from axcomp.native import (
+    PLATFORMS,
+    compile_library,
+    compiler_of,
+    has_cross_compiler,
+    image_of,
+    layout_header,
+    own_platform,
+    places_source,
+)
+from axcomp.runtime import compile_tables
 
 NATIVE = fmu_sources() / "native"
 

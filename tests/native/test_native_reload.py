@@ -14,12 +14,12 @@ import pytest
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine.engine import Engine
-from axcomp.fmu.native_package import write_image
+from axcomp.engine import Engine
+from axcomp.fmu import write_image
 from axcomp.kinds import Cross
 from axcomp.lists import write_machine
-from axcomp.model.machine import Axis, Machine
-from axcomp.native.image import HEADER_BEFORE_CHECK
+from axcomp.model import Axis, Machine
+from axcomp.native import HEADER_BEFORE_CHECK
 
 REFUSED = 902
 

@@ -16,7 +16,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 from fmu_host import in_child
 from fmu_machines import three_axes
 
-from axcomp.fmu.native_package import write_image
+from axcomp.fmu import write_image
 from axcomp.lists import write_machine
 
 COSIMULATION = 1

@@ -17,14 +17,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.kernel.cycle import cycle
-from axcomp.kernel.record import fields_of, zero
-from axcomp.kernel.records import AxisInputs, Inputs, Outputs, State, Tables
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.model.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation, Volumetric
-from axcomp.native.layout import ctypes_of, from_c, to_c
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import initial_inputs
+from axcomp.kernel import AxisInputs, Inputs, Outputs, State, Tables, cycle, fields_of, zero
+from axcomp.model import ERRORS, LETTERS, Axis, AxisType, ErrorTable, Interpolation, Machine, Volumetric
+from axcomp.native import ctypes_of, from_c, to_c
+from axcomp.runtime import compile_tables, initial_inputs
 
 SOURCES = Path(__file__).parents[2] / "fmu_src" / "native"
 

@@ -13,8 +13,8 @@ import pytest
 from fmu_host import Host, in_child
 from fmu_machines import three_axes, trajectory
 
-from axcomp.engine.engine import Engine
-from axcomp.native.compiler import PLATFORMS, own_platform
+from axcomp.engine import Engine
+from axcomp.native import PLATFORMS, own_platform
 
 COMPILERS = {
     "C99": ["gcc", "-std=c99", "-pedantic"],

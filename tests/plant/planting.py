@@ -6,7 +6,7 @@ import copy
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from axcomp.plant.machine import Plant
+from axcomp.plant import Plant
 
 AXIS: dict[str, Any] = {
     "name": "X",

@@ -9,8 +9,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from axcomp.model.companions import models
-from axcomp.plant.fmu import package_plant
+from axcomp.model import models
+from axcomp.plant import package_plant
 
 DRIVE = """
 import sys

@@ -10,7 +10,7 @@ from planting import axis, follow, plant_of
 from scipy.integrate import solve_ivp
 from scipy.interpolate import BSpline
 
-from axcomp.engine.motion import Limits, move
+from axcomp.engine import Limits, move
 
 CYCLE = 0.001
 WITHOUT_CONTROL = {"position_gain": 0.0, "velocity_gain": 0.0}

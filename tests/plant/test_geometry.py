@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from planting import axis, plant_of
 
-from axcomp.plant import curves
-from axcomp.plant.machine import Plant, PlantError
+from axcomp.plant import Plant, PlantError, curves
 
 QUADRATIC = {"origin": 10.0, "scale": 50.0, "polynomial": [1.0, -2.0, 3.0]}
 WAVE = {"waves": [{"amplitude": 4.0, "period": 80.0, "phase": 30.0}]}

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from planting import axis
 from scipy.spatial.transform import Rotation
 
-from axcomp.plant import curves, poses, rigid_bodies
-from axcomp.plant.machine import Plant, PlantError
+from axcomp.plant import Plant, PlantError, curves, poses, rigid_bodies
 
 NAMES = ("X", "Y", "Z", "A", "B", "C")
 ROTARY = (False, False, False, True, True, True)

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from axcomp.engine.motion import Course, Limits, Setpoints, move
-from axcomp.model.companions import models
-from axcomp.plant.simulated import (
+from axcomp.engine import Course, Limits, Setpoints, move
+from axcomp.model import models
+from axcomp.plant import (
     CYCLE_TIME,
     Plant,
     acceleration_test,

@@ -9,11 +9,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from axcomp.model.companions import models
-from axcomp.plant import curves
-from axcomp.plant.machine import Plant
-from axcomp.plant.simulated import load_plant
-from axcomp.plant.simulated_volume import IsoErrors, linear_axis_errors, table_errors
+from axcomp.model import models
+from axcomp.plant import IsoErrors, Plant, curves, linear_axis_errors, load_plant, table_errors
 
 MODEL = models() / "five_axis"
 TARGETS = np.linspace(-200.0, 0.0, 9)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from axcomp.kinds import Cross, Crosstalk, CrosstalkCurve, CrosstalkTest, Friction, Leadscrew, Plane
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, ModuloRange, Volumetric
 
 SCREW = Leadscrew((0.0, 10.0, 40.0), (0.0, 0.004, -0.002), (0.001, 0.006, 0.001))
 PLANE = Plane(2, 3, -10.0, 5.0, 10.0, 20.0, ((0.0, 0.01, 0.02), (0.004, -0.01, 0.0)))

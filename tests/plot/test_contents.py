@@ -8,19 +8,11 @@ import pytest
 from scipy.interpolate import LinearNDInterpolator
 from shown_machines import MACHINE, MEASURED, PLANE, SCATTERED, SCREW, VOLUMETRIC, table
 
-from axcomp.engine.tcp_model import TcpModel
+from axcomp.engine import TcpModel
 from axcomp.kinds import Leadscrew
-from axcomp.model.curve import Curve
-from axcomp.model.machine import Axis, Machine
-from axcomp.model.quantity import Quantity
-from axcomp.model.volumetric import Volumetric
-from axcomp.plot.bars import Bars
-from axcomp.plot.content import Content, NotComparableError, Subject, spread
-from axcomp.plot.contents import contents_of
-from axcomp.plot.curves import Curves
-from axcomp.plot.field import Field
-from axcomp.plot.maps import Map
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Axis, Curve, Machine, Quantity, Volumetric
+from axcomp.plot import Bars, Content, Curves, Field, Map, NotComparableError, Subject, contents_of, spread
+from axcomp.runtime import Runtime
 
 
 def _content(machine: Machine, axis: str, kind: str) -> Any:

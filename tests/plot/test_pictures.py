@@ -8,11 +8,7 @@ import numpy as np
 import pytest
 from shown_machines import MACHINE, MEASURED
 
-from axcomp.plot.content import Content
-from axcomp.plot.contents import contents_of
-from axcomp.plot.maps import Map
-from axcomp.plot.pages import page, shown
-from axcomp.plot.style import png, printed
+from axcomp.plot import Content, Map, contents_of, page, png, printed, shown
 
 CONTENTS = [*contents_of(MACHINE), *contents_of(MEASURED, kind="volumetric")]
 NAMES = [content.subject.name for content in CONTENTS]

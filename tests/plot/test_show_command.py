@@ -11,7 +11,7 @@ from shown_machines import MACHINE
 
 from axcomp.cli import main
 from axcomp.lists import write_machine
-from axcomp.model.machine import Machine
+from axcomp.model import Machine
 
 
 @pytest.fixture(scope="module")

@@ -16,13 +16,11 @@ import numpy as np
 import pytest
 
 from axcomp.cli import main
-from axcomp.demo.examples.trajectories import TRAJECTORIES
+from axcomp.demo.examples import TRAJECTORIES
 from axcomp.kinds import Cross, Friction, Leadscrew
 from axcomp.lists import read_machine, write_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.model.volumetric import ErrorTable, Volumetric
-from axcomp.report.report import make_report
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, ModuloRange, Volumetric, models
+from axcomp.report import make_report
 
 Capture = pytest.CaptureFixture[str]
 

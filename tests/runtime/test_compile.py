@@ -7,10 +7,16 @@ import pytest
 from hypothesis import given, settings
 from strategies import machines
 
-from axcomp.kernel.compensations import CROSS, FRICTION
-from axcomp.kernel.compensations import PLANE as PLANE_KIND
-from axcomp.kernel.crosstalk import CROSSTALK_CONSTANT, CROSSTALK_GRID, CROSSTALK_LINE, CROSSTALK_TRIANGLES
-from axcomp.kernel.fit import tables_fit
+from axcomp.kernel import (
+    CROSS,
+    CROSSTALK_CONSTANT,
+    CROSSTALK_GRID,
+    CROSSTALK_LINE,
+    CROSSTALK_TRIANGLES,
+    FRICTION,
+    tables_fit,
+)
+from axcomp.kernel import PLANE as PLANE_KIND
 from axcomp.kinds import (
     KINDS,
     Backlash,
@@ -23,8 +29,8 @@ from axcomp.kinds import (
     Plane,
     Temperature,
 )
-from axcomp.model.machine import CYCLE_TIME, Axis, AxisType, Machine, ModuloRange
-from axcomp.runtime.compile import CompileError, compile_tables
+from axcomp.model import CYCLE_TIME, Axis, AxisType, Machine, ModuloRange
+from axcomp.runtime import CompileError, compile_tables
 
 NAN, INF = math.nan, math.inf
 X = Axis(1, "X")

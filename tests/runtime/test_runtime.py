@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import machines
 
-from axcomp.kernel.compensations import BACKLASH, CROSS, CROSSTALK, FRICTION, LEADSCREW, PLANE, TEMPERATURE
+from axcomp.kernel import BACKLASH, CROSS, CROSSTALK, FRICTION, LEADSCREW, PLANE, TEMPERATURE
 from axcomp.kinds import (
     Backlash,
     Cross,
@@ -21,9 +21,8 @@ from axcomp.kinds import (
     Plane,
     Temperature,
 )
-from axcomp.model.machine import Axis, Machine
-from axcomp.runtime.compile import CompileError
-from axcomp.runtime.runtime import Runtime, SnapshotError, UpdateError
+from axcomp.model import Axis, Machine
+from axcomp.runtime import CompileError, Runtime, SnapshotError, UpdateError
 
 LINE = tuple(float(x) for x in range(-50, 51, 10))
 X = Axis(

@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.kernel.record import zero
-from axcomp.kernel.records import Inputs, Outputs, State
-from axcomp.runtime.snapshot import SnapshotError, identity_of, pack, unpack
+from axcomp.kernel import Inputs, Outputs, State, zero
+from axcomp.runtime import SnapshotError, identity_of, pack, unpack
 
 
 @dataclass(slots=True)

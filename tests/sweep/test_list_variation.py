@@ -6,11 +6,10 @@ from pathlib import Path
 import pytest
 
 from axcomp import read_machine
-from axcomp.kinds import KINDS
-from axcomp.kinds.parameter import ListKind
+from axcomp.kinds import KINDS, ListKind
 from axcomp.lists import Document
-from axcomp.model.companions import models
-from axcomp.sweep.list_variation import ListEntry, Table, read_files, varied
+from axcomp.model import models
+from axcomp.sweep import ListEntry, Table, read_files, varied
 
 LIST = b"""\
 # a list

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from axcomp.sweep.reductions import Reduction
+from axcomp.sweep import Reduction
 
 VALUES = {"a": np.array([1.0, -4.0, 2.0]), "X.b": np.array([0.5, 1.0, -1.0]), "on": np.array([False, True, True])}
 

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from axcomp.model.companions import models
-from axcomp.sweep.spec import Spec, SpecError, read_spec
-from axcomp.sweep.sweep import job_of
+from axcomp.model import models
+from axcomp.sweep import Spec, SpecError, job_of, read_spec
 
 GOOD = {
     "machine": str(models() / "three_axis"),

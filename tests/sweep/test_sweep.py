@@ -14,12 +14,9 @@ import pandas as pd
 import pytest
 
 from axcomp import Engine
-from axcomp.fmu.package import package_axcomp
-from axcomp.model.companions import models
-from axcomp.sweep.journal import Journal, keys_of
-from axcomp.sweep.spec import ERROR, read_spec
-from axcomp.sweep.sweep import job_of, run_sweep
-from axcomp.sweep.task import perform
+from axcomp.fmu import package_axcomp
+from axcomp.model import models
+from axcomp.sweep import ERROR, Journal, job_of, keys_of, perform, read_spec, run_sweep
 
 MODEL = models() / "three_axis"
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(models().parent)}

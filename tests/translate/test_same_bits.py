@@ -12,8 +12,8 @@ import pytest
 from random_programs import Maker
 from translating import PREAMBLE, Builder, Built
 
-from axcomp.kernel.record import fields_of, zero
-from axcomp.native.layout import ctypes_of, from_c, to_c
+from axcomp.kernel import fields_of, zero
+from axcomp.native import ctypes_of, from_c, to_c
 
 SPECIAL = [0.0, -0.0, 1.0, -1.0, 0.5, math.inf, -math.inf, math.nan, 5e-324, -5e-324, 1.7976931348623157e308, 3.0]
 

@@ -10,8 +10,7 @@ import pytest
 from translating import write_package
 
 from axcomp.kernel import EXPORTS
-from axcomp.translate import translate
-from axcomp.translate.__main__ import main
+from axcomp.translate import main, translate
 
 ROOT = Path(__file__).parents[2]
 KERNEL = ROOT / "axcomp" / "kernel"

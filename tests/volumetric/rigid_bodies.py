@@ -13,11 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from axcomp.kernel.record import zeros
-from axcomp.kernel.volumetric_model import FRAME, carry_to_workpiece
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Volumetric
-from axcomp.runtime.runtime import Runtime
+from axcomp.kernel import FRAME, carry_to_workpiece, zeros
+from axcomp.model import ERRORS, LETTERS, LINEAR, Axis, AxisType, ErrorTable, Machine, Volumetric
+from axcomp.runtime import Runtime
 
 Matrix = NDArray[np.float64]
 FASTEST = 1e6  # mm/s: slows no filter down

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from rigid_bodies import machine_of, volumetric, with_constant_errors
 
-from axcomp.model.machine import Machine
-from axcomp.model.volumetric import Volumetric
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import Machine, Volumetric
+from axcomp.runtime import Runtime
 
 SHIFTS = {"X0X": 0.01, "Y0Y": 0.02, "Z0Z": -0.04}
 VALUES = np.array([-0.01, -0.02, 0.04])

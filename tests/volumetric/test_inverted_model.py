@@ -17,8 +17,8 @@ from rigid_bodies import (
 )
 
 from axcomp.kernel import volumetric_model
-from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Volumetric, is_angle
-from axcomp.runtime.runtime import Runtime
+from axcomp.model import ERRORS, LETTERS, LINEAR, ErrorTable, Volumetric, is_angle
+from axcomp.runtime import Runtime
 
 POSITIONS = np.linspace(-400.0, 400.0, 801)
 CENTERS = ((10.0, 20.0, -30.0), (-40.0, 5.0, 60.0), (70.0, -80.0, -550.0))

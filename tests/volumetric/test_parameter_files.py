@@ -4,12 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from axcomp.kinds.parameter import Severity
-from axcomp.lists.etalon import read_etalon, write_etalon
-from axcomp.lists.findings import Finding, Findings
-from axcomp.lists.isg_csv import read_isg_csv, write_isg_csv
-from axcomp.lists.volumetric_blocks import ParameterBlock
-from axcomp.model.volumetric import LETTERS, PARAMETERS
+from axcomp.kinds import Severity
+from axcomp.lists import Finding, Findings, ParameterBlock, read_etalon, read_isg_csv, write_etalon, write_isg_csv
+from axcomp.model import LETTERS, PARAMETERS
 
 Block = tuple[tuple[str, ...], tuple[str, ...], list[list[float]]]
 

@@ -5,9 +5,8 @@ from dataclasses import replace
 import pytest
 from rigid_bodies import machine_of, volumetric
 
-from axcomp.model.machine import Machine
-from axcomp.model.volumetric import ErrorTable, Interpolation, Volumetric
-from axcomp.runtime.compile import CompileError, compile_tables
+from axcomp.model import ErrorTable, Interpolation, Machine, Volumetric
+from axcomp.runtime import CompileError, compile_tables
 
 NODES = ((0.0,), (100.0,))
 TABLE = ErrorTable("EXX", (0.01, 0.02), "X", NODES)

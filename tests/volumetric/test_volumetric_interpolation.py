@@ -12,12 +12,9 @@ from numpy.typing import NDArray
 from rigid_bodies import corrections_of, machine_of, volumetric
 from scipy.interpolate import RegularGridInterpolator
 
-from axcomp.kernel.record import zeros
-from axcomp.kernel.volumetric_errors import errors_at, find_cell
-from axcomp.model.machine import ModuloRange
-from axcomp.model.volumetric import ERRORS, LETTERS, ErrorTable, Interpolation
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import Runtime
+from axcomp.kernel import errors_at, find_cell, zeros
+from axcomp.model import ERRORS, LETTERS, ErrorTable, Interpolation, ModuloRange
+from axcomp.runtime import Runtime, compile_tables
 
 Array = NDArray[np.float64]
 KNOTS = st.lists(st.floats(-500, 500).map(lambda x: round(x, 3)), min_size=1, max_size=7, unique=True).map(sorted)

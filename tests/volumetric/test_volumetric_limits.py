@@ -7,8 +7,7 @@ import pytest
 from rigid_bodies import machine_of, volumetric, with_constant_errors
 from switched import VALUES, Bench, N, shifted, smooth
 
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, Volumetric
 
 T = 1e-3  # s, the cycle
 

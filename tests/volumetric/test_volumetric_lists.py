@@ -12,13 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rigid_bodies import NUMBERS, machine_of, volumetric
 
-from axcomp.kinds.parameter import ListKind, Manual
-from axcomp.lists import ListError, Reading, read_machine, write_machine
-from axcomp.lists.catalogue import CATALOGUE
-from axcomp.model.machine import AxisType
-from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, ErrorTable, Interpolation, Volumetric
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import Runtime
+from axcomp.kinds import ListKind, Manual
+from axcomp.lists import CATALOGUE, ListError, Reading, read_machine, write_machine
+from axcomp.model import ERRORS, LETTERS, LINEAR, AxisType, ErrorTable, Interpolation, Volumetric
+from axcomp.runtime import Runtime, compile_tables
 
 Files = dict[str, str]
 

@@ -15,7 +15,7 @@ from rigid_bodies import (
 )
 from scipy.spatial.transform import Rotation
 
-from axcomp.model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric, is_angle
+from axcomp.model import ERRORS, LETTERS, LINEAR, Volumetric, is_angle
 
 TOOL = {"tool_position": (3.0, -4.0, 50.0), "tool_orientation": (0.0, 0.6, -0.8)}
 CENTERS = ((10.0, 20.0, -30.0), (-40.0, 5.0, 60.0), (70.0, -80.0, 9.0))

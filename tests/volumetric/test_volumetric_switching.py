@@ -8,9 +8,8 @@ import pytest
 from rigid_bodies import machine_of, volumetric, with_constant_errors
 from switched import SHIFTS, VALUES, Bench, N, doubled, shifted, smooth
 
-from axcomp.model.machine import Axis, AxisType
-from axcomp.model.volumetric import ErrorTable, Interpolation, Volumetric
-from axcomp.runtime.runtime import SnapshotError, UpdateError
+from axcomp.model import Axis, AxisType, ErrorTable, Interpolation, Volumetric
+from axcomp.runtime import SnapshotError, UpdateError
 
 
 def test_an_automatic_compensation_begins_at_full_weight() -> None:

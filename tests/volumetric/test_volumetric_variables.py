@@ -7,11 +7,10 @@ import pytest
 from fmpy.model_description import read_model_description
 from rigid_bodies import machine_of, volumetric
 
-from axcomp.engine.engine import Engine
-from axcomp.fmu.description import Description, model_description
-from axcomp.interface.variables import Naming, by_name, variables_of
-from axcomp.model.machine import Machine
-from axcomp.model.volumetric import ErrorTable, Interpolation
+from axcomp.engine import Engine
+from axcomp.fmu import Description, model_description
+from axcomp.interface import Naming, by_name, variables_of
+from axcomp.model import ErrorTable, Interpolation, Machine
 
 DESCRIPTION = Description("axcomp", "Corrects", 0.001, "1.0")
 

@@ -8,7 +8,7 @@ import pytest
 from rigid_bodies import machine_of, volumetric
 
 from axcomp.lists import read_machine, write_machine
-from axcomp.model.volumetric import ErrorTable, Interpolation
+from axcomp.model import ErrorTable, Interpolation
 
 NODES = ((-10.0,), (0.0,), (10.0,))
 OWN = ErrorTable("EXX", (1e-3, 0.0, -2e-3), "X", NODES)

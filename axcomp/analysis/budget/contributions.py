@@ -15,15 +15,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...engine.engine import Engine, Result
-from ...engine.motion import Array
-from ...engine.tcp_model import TcpModel
-from ...engine.trajectory import Columns, InputFile, completed
-from ...interface.variable import with_causality
+from ...engine import Array, Columns, Engine, InputFile, Result, TcpModel, completed
+from ...interface import with_causality
 from ...kinds import KINDS
-from ...model.machine import Machine
-from ...model.quantity import shown
-from ...model.volumetric import ERRORS, LETTERS, LINEAR, Volumetric
+from ...model import ERRORS, LETTERS, LINEAR, Machine, Volumetric, shown
 
 POINTS = 200
 """Points of the path at which volumetric errors are evaluated, if nothing else is asked for."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import DOWN, UP, labelled, line_styles, new_figure, printed
+from ...plot import DOWN, UP, labelled, line_styles, new_figure, printed
 from .contributions import VOLUMETRIC, Budget
 from .propagation import COVERAGE, TcpUncertainty
 

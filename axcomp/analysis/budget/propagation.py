@@ -15,12 +15,10 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from ...engine.motion import Array
-from ...fit.hat_functions import hats
+from ...engine import Array
+from ...fit import hats
 from ...kinds import tables_of
-from ...model.machine import AxisType
-from ...model.quantity import shown
-from ...model.volumetric import ERRORS, LETTERS
+from ...model import ERRORS, LETTERS, AxisType, shown
 from .contributions import Budget, Poses
 from .uncertainty import Uncertainty
 

@@ -25,9 +25,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...kinds import KINDS, tables_of
-from ...lists.grammar import decode
-from ...model.machine import AxisType, Machine
-from ...model.volumetric import ERRORS, Interpolation, is_angle
+from ...lists import decode
+from ...model import ERRORS, AxisType, Interpolation, Machine, is_angle
 
 LENGTHS = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
 ANGLES = {"rad": 1.0, "mrad": 1e-3, "urad": 1e-6, "deg": math.pi / 180.0, "arcsec": math.pi / 648000.0}

@@ -3,3 +3,24 @@
 ``records`` reads the parameter files again, for a machine has forgotten which record came from where; ``workbook``
 and ``files`` write what was found and need openpyxl.
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...model.face import face
+
+if TYPE_CHECKING:
+    from .files import Written as Written
+    from .files import write_diagnoses as write_diagnoses
+    from .records import Diagnosis as Diagnosis
+    from .records import Record as Record
+    from .records import diagnose as diagnose
+    from .records import volumetric_lists as volumetric_lists
+    from .records import write_named_diagnoses as write_named_diagnoses
+else:
+    __all__, __getattr__, __dir__ = face(
+        __name__,
+        files="Written write_diagnoses",
+        records="Diagnosis Record diagnose volumetric_lists write_named_diagnoses",
+    )

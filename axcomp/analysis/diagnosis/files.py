@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
-from ...fmu.archive import BuildError
+from ...fmu import BuildError
 from ...lists import Reading
 from .records import Diagnosis, VolumetricList, diagnose
 from .workbook import write_workbook

@@ -8,16 +8,21 @@ from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
-from ...lists import Document, Finding, Reading
-from ...lists.catalogue_volumetric import ETALON_EXCHANGE
-from ...lists.etalon import read_etalon
-from ...lists.files import Files
-from ...lists.findings import Findings
-from ...lists.isg_csv import read_isg_csv
-from ...lists.values import ListValues
-from ...lists.volumetric_blocks import ParameterBlock
-from ...lists.volumetric_parameters import Parameters, assemble
-from ...model.volumetric import AXIS_NUMBERS, COMPENSATIONS_MAX, DESCRIPTION, ERRORS, FILES_MAX, LETTERS, Interpolation
+from ...lists import (
+    ETALON_EXCHANGE,
+    Document,
+    Files,
+    Finding,
+    Findings,
+    ListValues,
+    ParameterBlock,
+    Parameters,
+    Reading,
+    assemble,
+    read_etalon,
+    read_isg_csv,
+)
+from ...model import AXIS_NUMBERS, COMPENSATIONS_MAX, DESCRIPTION, ERRORS, FILES_MAX, LETTERS, Interpolation
 
 FILE_NAME, MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
 """P-STUP-00101 and P-STUP-00100."""

@@ -21,11 +21,10 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 from openpyxl.xml.functions import tostring
 
-from ...fmu.archive import generation_date, write_fmu
-from ...kinds.parameter import ListKind, Parameter
-from ...lists.catalogue import CATALOGUE, parameter
-from ...lists.values import ListValues
-from ...model.volumetric import AXIS_NUMBERS, DIRECTIONS, FILES_MAX, LETTERS, LINEAR, TOOL_ORIENTATION, is_angle
+from ...fmu import generation_date, write_fmu
+from ...kinds import ListKind, Parameter
+from ...lists import CATALOGUE, ListValues, parameter
+from ...model import AXIS_NUMBERS, DIRECTIONS, FILES_MAX, LETTERS, LINEAR, TOOL_ORIENTATION, is_angle
 from .records import FILE_NAME, MAX_RECORDS, Diagnosis, ParameterFile, Record
 
 SETTINGS = "settings"

@@ -11,15 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.motion import Array
-from ...interface.variables import identifier
-from ...kinds import tables_of
-from ...kinds.shown import ACCELERATION, POSITION
-from ...lists import Position
-from ...lists.findings import Findings
-from ...model.machine import Axis, Machine
-from ...model.quantity import symbol
-from ...model.volumetric import FULL_TURN, LETTERS, LINEAR, Volumetric, turn_of
+from ...engine import Array
+from ...interface import identifier
+from ...kinds import ACCELERATION, POSITION, tables_of
+from ...lists import Findings, Position
+from ...model import FULL_TURN, LETTERS, LINEAR, Axis, Machine, Volumetric, symbol, turn_of
 from .positions import Positions, sentence
 
 TOLERANCE = 1e-6

@@ -16,11 +16,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from ...engine.motion import Array
+from ...engine import Array
 from ...kinds import Tables, tables_of
-from ...lists.findings import Findings
-from ...model.machine import CYCLE_TIME, Axis, Machine
-from ...model.quantity import shown, symbol
+from ...lists import Findings
+from ...model import CYCLE_TIME, Axis, Machine, shown, symbol
 from .positions import Positions, sentence
 
 if TYPE_CHECKING:
@@ -170,7 +169,7 @@ class DynamicsResult:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the slope over the position, with the velocity it adds; return the axes."""
-        from ...plot.style import UP, labelled, new_figure
+        from ...plot import UP, labelled, new_figure
 
         ax = new_figure().add_subplot() if ax is None else ax
         unit, over = symbol(self.axis.unit), symbol(self.over.unit)

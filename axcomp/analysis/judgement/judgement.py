@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ...kinds import tables_of
-from ...lists import Finding, Reading
-from ...lists.findings import Findings
-from ...model.machine import Machine
+from ...lists import Finding, Findings, Reading
+from ...model import Machine
 from .positions import Positions
 from .seam import judge_seams
 
 if TYPE_CHECKING:
-    from ...engine.motion import Array
-    from ...engine.trajectory import InputFile
-    from ...measurement.positioning import Positioning
+    from ...engine import Array, InputFile
+    from ...measurement import Positioning
     from .coverage import Coverage
     from .dynamics import Demand, DynamicsResult
     from .limits import LargestCorrection

@@ -14,11 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.motion import Array
-from ...engine.tcp_model import TcpModel
-from ...lists.findings import Findings
-from ...model.machine import Axis, Machine
-from ...model.volumetric import LETTERS, LINEAR, Volumetric
+from ...engine import Array, TcpModel
+from ...lists import Findings
+from ...model import LETTERS, LINEAR, Axis, Machine, Volumetric
 from .positions import Positions
 
 POSITIONS_MAX = 1000

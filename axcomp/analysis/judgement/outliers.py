@@ -14,13 +14,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ...engine.motion import Array
+from ...engine import Array
 from ...kinds import tables_of
-from ...lists.findings import Findings
-from ...model.curve import Curve
-from ...model.grid import Grid
-from ...model.machine import Machine
-from ...model.quantity import Quantity
+from ...lists import Findings
+from ...model import Curve, Grid, Machine, Quantity
 from .judgement import JUDGED_LEAST
 from .positions import Positions
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ...kinds.parameter import ListKind
-from ...lists import Document, Position, Reading
-from ...lists.catalogue import parameter
+from ...kinds import ListKind
+from ...lists import Document, Position, Reading, parameter
 
 
 def sentence(text: str) -> str:

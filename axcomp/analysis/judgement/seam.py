@@ -11,9 +11,8 @@ import math
 from typing import NamedTuple
 
 from ...kinds import tables_of
-from ...lists.findings import Findings
-from ...model.curve import Curve
-from ...model.machine import Machine, ModuloRange
+from ...lists import Findings
+from ...model import Curve, Machine, ModuloRange
 from .positions import Positions
 
 STEEPER = 3.0

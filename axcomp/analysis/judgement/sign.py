@@ -14,13 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...engine.motion import Array
+from ...engine import Array
 from ...kinds import Tables, tables_of
-from ...lists.findings import Findings
-from ...measurement.iso230 import Iso230Result, evaluate
-from ...measurement.positioning import Positioning
-from ...model.machine import Machine
-from ...model.quantity import symbol
+from ...lists import Findings
+from ...measurement import Iso230Result, Positioning, evaluate
+from ...model import Machine, symbol
 from .positions import Positions, sentence
 
 if TYPE_CHECKING:
@@ -117,7 +115,7 @@ class SignResult:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the mean deviations without the compensation and as written; return the axes."""
-        from ...plot.style import DOWN, UP, labelled, new_figure
+        from ...plot import DOWN, UP, labelled, new_figure
 
         ax = new_figure().add_subplot() if ax is None else ax
         for name, style, words in ((WITHOUT, "--", "without"), (WRITTEN, "-", "with the table")):

@@ -8,12 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.motion import Array
-from ...interface.variable import Variable
-from ...interface.variables import by_name, variables_of
+from ...engine import Array
+from ...interface import Variable, by_name, variables_of
 from ...kinds import Friction
-from ...model.machine import Axis, Machine
-from ...model.quantity import shown, symbol
+from ...model import Axis, Machine, shown, symbol
 from .explanations import Bench, Outputs
 from .trace import Trace
 

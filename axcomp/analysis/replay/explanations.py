@@ -9,13 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.engine import Engine
-from ...engine.motion import Array
-from ...engine.trajectory import Columns
-from ...interface.variables import variables_of
+from ...engine import Array, Columns, Engine
+from ...interface import variables_of
 from ...kinds import KINDS, Backlash, Crosstalk, Leadscrew
-from ...model.machine import Axis, AxisType, Machine, ModuloRange
-from ...model.volumetric import LINEAR, Volumetric
+from ...model import LINEAR, Axis, AxisType, Machine, ModuloRange, Volumetric
 
 Outputs = Mapping[str, Array]
 """By name, shape (cycles,)."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import COLOURS, DOWN, UP, labelled, new_figure
+from ...plot import COLOURS, DOWN, UP, labelled, new_figure
 from .comparison import Comparison
 
 SMALL = 1e4

@@ -9,12 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ...engine.engine import Engine
-from ...engine.motion import Array
-from ...engine.trajectory import TIME, InputError, InputFile, read_table
-from ...interface.variable import Variable
-from ...measurement.columns import ANGLES, LENGTHS
-from ...model.machine import CYCLE_TIME, CYCLE_TIME_MAX, Machine
+from ...engine import TIME, Array, Engine, InputError, InputFile, read_table
+from ...interface import Variable
+from ...measurement import ANGLES, LENGTHS
+from ...model import CYCLE_TIME, CYCLE_TIME_MAX, Machine
 
 ON_TIME = 0.25
 """Share of a cycle by which the instants of the rows may be off: stamps are rounded."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ...model.companions import models
+from ...model import models
 from .files import write_expected, write_input, write_lists
 from .trajectories import TRAJECTORIES
 

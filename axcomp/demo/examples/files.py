@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.engine import Engine
-from ...engine.motion import Array
+from ...engine import Array, Engine
 from ...lists import write_machine
-from ...plant.simulated import load_plant
+from ...plant import load_plant
 from .machines import MACHINES
 from .trajectories import TRAJECTORIES
 

@@ -9,10 +9,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ...model.machine import Axis, AxisType, Machine, ModuloRange
-from ...model.volumetric import ERRORS, ErrorTable, Triple, Volumetric, is_angle
-from ...plant.machine import Plant
-from ...plant.simulated_volume import IsoErrors, linear_axis_errors, table_errors
+from ...model import ERRORS, Axis, AxisType, ErrorTable, Machine, ModuloRange, Triple, Volumetric, is_angle
+from ...plant import IsoErrors, Plant, linear_axis_errors, table_errors
 
 NUMBERS = {"X": 1, "Y": 2, "Z": 3, "B": 5, "C": 6}
 """Logical axis numbers."""

@@ -10,9 +10,8 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from ...kinds import Cross, Crosstalk, CrosstalkCurve, CrosstalkTest, Friction, Leadscrew, Plane
-from ...model.machine import Axis, AxisType, Machine, ModuloRange
-from ...plant.machine import Plant
-from ...plant.simulated import acceleration_test, flatness, friction_current, positioning, straightness
+from ...model import Axis, AxisType, Machine, ModuloRange
+from ...plant import Plant, acceleration_test, flatness, friction_current, positioning, straightness
 from .five_axis import five_axis
 
 X, Y, Z, C = 1, 2, 3, 6

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ...engine.motion import Array, Course, Limits
+from ...engine import Array, Course, Limits
 
 CYCLE_TIME = 0.001
 CYCLES = 1001

@@ -6,11 +6,10 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from axcomp.analysis.budget.contributions import budget_of
-from axcomp.analysis.budget.picture import SHOWN, plot_waterfall
+from axcomp.analysis.budget import SHOWN, budget_of, plot_waterfall
 from axcomp.cli import main
-from axcomp.engine.trajectory import read_input
-from axcomp.model.companions import models
+from axcomp.engine import read_input
+from axcomp.model import models
 
 FIVE = models() / "five_axis"
 INPUT = str(FIVE / "input.csv")

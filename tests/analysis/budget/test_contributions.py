@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from axcomp import read_machine
-from axcomp.analysis.budget.contributions import Budget, budget_of
-from axcomp.engine.trajectory import InputFile, read_input
+from axcomp.analysis.budget import Budget, budget_of
+from axcomp.engine import InputFile, read_input
 from axcomp.kinds import Cross, Leadscrew
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.model.volumetric import ERRORS, ErrorTable, Volumetric
+from axcomp.model import ERRORS, Axis, AxisType, ErrorTable, Machine, Volumetric, models
 
 XYZ = tuple(Axis(number, name, volumetric_limit=10.0) for number, name in ((1, "X"), (2, "Y"), (3, "Z")))
 

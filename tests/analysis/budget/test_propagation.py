@@ -6,14 +6,10 @@ import numpy as np
 import pytest
 
 from axcomp import read_machine
-from axcomp.analysis.budget.contributions import budget_of
-from axcomp.analysis.budget.propagation import tcp_uncertainty
-from axcomp.analysis.budget.uncertainty import Uncertainty
-from axcomp.engine.trajectory import InputFile, read_input
+from axcomp.analysis.budget import Uncertainty, budget_of, tcp_uncertainty
+from axcomp.engine import InputFile, read_input
 from axcomp.kinds import Leadscrew
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Machine
-from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, Volumetric, models
 
 XYZ = tuple(Axis(number, name, volumetric_limit=10.0) for number, name in ((1, "X"), (2, "Y"), (3, "Z")))
 NODES = ((0.0,), (100.0,))

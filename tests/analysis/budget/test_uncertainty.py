@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from axcomp import read_machine
-from axcomp.analysis.budget.uncertainty import Uncertainty, UncertaintyError, read_uncertainties
-from axcomp.model.companions import models
+from axcomp.analysis.budget import Uncertainty, UncertaintyError, read_uncertainties
+from axcomp.model import models
 
 FIVE = read_machine(models() / "five_axis").machine
 THREE = read_machine(models() / "three_axis").machine

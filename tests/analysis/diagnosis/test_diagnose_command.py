@@ -10,7 +10,7 @@ import pytest
 from diagnosed_lists import settings, sheets, write_lists
 
 from axcomp.cli import main
-from axcomp.model.companions import models
+from axcomp.model import models
 
 Capture = pytest.CaptureFixture[str]
 
@@ -20,10 +20,9 @@ CSV = "X EXX\n0 0.5\n9 0.25\n"
 @pytest.fixture
 def hidden(monkeypatch: pytest.MonkeyPatch) -> None:
     """Hide openpyxl, and forget what has imported it."""
-    for name in [name for name in sys.modules if name.partition(".")[0] == "openpyxl"]:
-        monkeypatch.delitem(sys.modules, name)
-    for name in ("axcomp.analysis.diagnosis.files", "axcomp.analysis.diagnosis.workbook", "axcomp.cli.diagnose"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
+    for name in [*sys.modules]:
+        if name.startswith(("openpyxl", "axcomp.analysis.diagnosis", "axcomp.cli.diagnose")):
+            monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "openpyxl", None)
 
 

@@ -9,9 +9,9 @@ from diagnosed_lists import write_lists
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from axcomp.analysis.diagnosis.records import Diagnosis, Record, diagnose, volumetric_lists
+from axcomp.analysis.diagnosis import Diagnosis, Record, diagnose, volumetric_lists
 from axcomp.lists import read_machine
-from axcomp.model.volumetric import LETTERS
+from axcomp.model import LETTERS
 
 
 def diagnosis_of(folder: Path) -> Diagnosis:

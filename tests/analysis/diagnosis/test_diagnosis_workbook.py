@@ -13,10 +13,9 @@ import openpyxl
 import pytest
 from diagnosed_lists import settings, sheets, write_lists
 
-from axcomp.analysis.diagnosis import workbook
-from axcomp.analysis.diagnosis.records import diagnose, volumetric_lists
+from axcomp.analysis.diagnosis import diagnose, volumetric_lists, workbook
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
+from axcomp.model import models
 
 FIVE_AXIS = models() / "five_axis"
 

@@ -11,10 +11,9 @@ import numpy as np
 from axcomp.analysis.judgement import Judgement, judge
 from axcomp.kinds import Cross, Leadscrew, Plane
 from axcomp.lists import read_machine
-from axcomp.measurement.positioning import Positioning
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.plant.simulated import load_plant, positioning, straightness
+from axcomp.measurement import Positioning
+from axcomp.model import Axis, AxisType, Machine, ModuloRange, models
+from axcomp.plant import load_plant, positioning, straightness
 
 THREE_AXIS = models() / "three_axis"
 

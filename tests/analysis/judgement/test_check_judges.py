@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from judging import THREE_AXIS, leadscrew_machine, measured
 
-from axcomp.analysis.judgement.positions import Positions
+from axcomp.analysis.judgement import Positions
 from axcomp.cli import main
 from axcomp.lists import read_machine, write_machine
 

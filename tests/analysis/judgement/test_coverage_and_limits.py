@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 from judging import codes, cross_machine, example, judge, plane_machine, said, table_of_c
 
-from axcomp.analysis.judgement.limits import largest_corrections
-from axcomp.engine.engine import Engine
-from axcomp.engine.trajectory import read_input
+from axcomp.analysis.judgement import largest_corrections
+from axcomp.engine import Engine, read_input
 from axcomp.kinds import CrosstalkCurve
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
-from axcomp.model.volumetric import ErrorTable, Volumetric
+from axcomp.model import Axis, AxisType, ErrorTable, Machine, ModuloRange, Volumetric, models
 
 
 def test_positions_outside_are_named_with_distance_and_share() -> None:

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from judging import codes, cross_machine, judge, leadscrew_machine, plane_machine, said, table_of_c
 
-from axcomp.analysis.judgement import Demand
-from axcomp.analysis.judgement.dynamics import dynamics_of, ramp_rates
-from axcomp.analysis.judgement.seam import seam_of
-from axcomp.engine.engine import Engine
+from axcomp.analysis.judgement import Demand, dynamics_of, ramp_rates, seam_of
+from axcomp.engine import Engine
 from axcomp.kinds import Cross, tables_of
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
 
 FEED = Demand({"": 500.0})
 

@@ -8,10 +8,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from judging import codes, cross_machine, judge, leadscrew_machine, plane_machine, table_of_c
 
-from axcomp.analysis.judgement.outliers import spikes
-from axcomp.demo.examples.trajectories import TRAJECTORIES
+from axcomp.analysis.judgement import spikes
+from axcomp.demo.examples import TRAJECTORIES
 from axcomp.lists import read_machine, write_machine
-from axcomp.model.companions import models
+from axcomp.model import models
 
 WAVE = st.tuples(st.floats(0.0, 0.05), st.floats(8.0, 200.0), st.floats(0.0, 6.3))
 """Amplitude in mm, wavelength in points, phase."""

@@ -8,11 +8,11 @@ import pytest
 from judging import THREE_AXIS, codes, example, judge, leadscrew_machine, measured, said
 
 from axcomp.analysis.judgement import sign_of
-from axcomp.convert.machines import tables_of
+from axcomp.convert import tables_of
 from axcomp.kinds import Cross, Leadscrew
 from axcomp.lists import read_machine
-from axcomp.measurement.positioning import Positioning
-from axcomp.model.machine import Axis, AxisType, Machine
+from axcomp.measurement import Positioning
+from axcomp.model import Axis, AxisType, Machine
 
 
 def changed(axis: str, **fields) -> Machine:

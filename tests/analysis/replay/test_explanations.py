@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from traces import best, compared, example, having, recorded
 
-from axcomp.engine.engine import Engine
+from axcomp.engine import Engine
 from axcomp.kinds import KINDS, Backlash
-from axcomp.model.machine import Machine
+from axcomp.model import Machine
 
 ROUNDED = 0.06
 """µm: half a step of 0.1 µm, and what setpoints of 1 nm make of it."""

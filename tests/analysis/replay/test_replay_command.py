@@ -13,8 +13,7 @@ from traces import example, recorded, write_german
 from axcomp.cli import main
 from axcomp.kinds import Leadscrew
 from axcomp.lists import write_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine, models
 
 X = np.concatenate([np.linspace(0.0, 50.0, 51), np.linspace(50.0, 20.0, 31)[1:]])
 TABLE = ((0.0, 20.0, 60.0), (0.0, 0.010, -0.004))

@@ -9,13 +9,10 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from axcomp.analysis.replay.comparison import Comparison, compare
-from axcomp.analysis.replay.trace import read_trace
-from axcomp.engine.engine import Engine
-from axcomp.engine.trajectory import read_input
+from axcomp.analysis.replay import Comparison, compare, read_trace
+from axcomp.engine import Engine, read_input
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Compensation, Machine
+from axcomp.model import Compensation, Machine, models
 
 Columns = dict[str, NDArray[Any]]
 

@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import pytest
 
-from axcomp.fmu.native_package import SOURCES as LIBRARY_SOURCES
-from axcomp.native.compiler import FLAGS
+from axcomp.fmu import SOURCES as LIBRARY_SOURCES
+from axcomp.native import FLAGS
 
 ROOT = Path(__file__).parents[3]
 NATIVE = ROOT / "fmu_src" / "native"

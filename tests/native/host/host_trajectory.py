@@ -11,9 +11,8 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from axcomp import Engine, Machine
-from axcomp.interface.variable import Variable
-from axcomp.interface.variables import variables_of
-from axcomp.model.machine import CYCLE_TIME
+from axcomp.interface import Variable, variables_of
+from axcomp.model import CYCLE_TIME
 
 Columns = Mapping[str, NDArray[Any]]
 NOT_GIVEN = ("reload",)

@@ -16,12 +16,11 @@ from hypothesis import strategies as st
 from strategies import machines
 
 from axcomp import Machine
-from axcomp.bench.machines import machine_of
-from axcomp.interface.variable import BLOCK
-from axcomp.interface.variables import variables_of
+from axcomp.bench import machine_of
+from axcomp.interface import BLOCK, variables_of
 from axcomp.lists import read_machine
-from axcomp.native.image import image_of
-from axcomp.runtime.compile import compile_tables
+from axcomp.native import image_of
+from axcomp.runtime import compile_tables
 
 GUID = "{bits}"
 MODELS = Path(__file__).parents[3] / "models"

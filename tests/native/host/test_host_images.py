@@ -15,15 +15,14 @@ import pytest
 from host_program import ERROR, OK, Program, bits, real, text
 from host_trajectory import motion, write_trajectory
 
-from axcomp.bench.machines import machine_of
-from axcomp.interface.variable import BLOCK
-from axcomp.kernel.records import ERROR_UPDATE
+from axcomp.bench import machine_of
+from axcomp.interface import BLOCK
+from axcomp.kernel import ERROR_UPDATE
 from axcomp.kinds import Leadscrew
 from axcomp.lists import read_machine
-from axcomp.model.companions import models
-from axcomp.model.machine import Machine
-from axcomp.native.image import image_of
-from axcomp.runtime.compile import compile_tables
+from axcomp.model import Machine, models
+from axcomp.native import image_of
+from axcomp.runtime import compile_tables
 
 GUID = "{3b2f6c1e-0000-4000-8000-00000000beef}"
 MACHINE = machine_of(3, 12)

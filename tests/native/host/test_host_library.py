@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from host_program import LOADER, NATIVE, Program
 
-from axcomp.fmu.native_package import SOURCES
+from axcomp.fmu import SOURCES
 
 FUNCTIONS = {f"fmi2{name}" for name in re.findall(r"FUNCTION\([^,]+, (\w+),", (LOADER / "fmu_library.h").read_text())}
 SAME_EVERYWHERE = {"ceil", "floor", "fabs", "sqrt"}

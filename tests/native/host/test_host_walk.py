@@ -13,15 +13,12 @@ from typing import Any
 import pytest
 from host_program import ERROR, OK, Answer, Program, bits
 
-from axcomp.bench.machines import machine_of
-from axcomp.interface.slot import Slot, slot_in
-from axcomp.interface.variable import BLOCK
-from axcomp.interface.variables import AXIS_DECLARATIONS, OF_MACHINE
-from axcomp.kernel.records import ERROR_UPDATE
-from axcomp.model.machine import Machine
-from axcomp.native.image import image_of
-from axcomp.runtime.compile import compile_tables
-from axcomp.runtime.runtime import Runtime
+from axcomp.bench import machine_of
+from axcomp.interface import AXIS_DECLARATIONS, BLOCK, OF_MACHINE, Slot, slot_in
+from axcomp.kernel import ERROR_UPDATE
+from axcomp.model import Machine
+from axcomp.native import image_of
+from axcomp.runtime import Runtime, compile_tables
 
 GUID = "{3b2f6c1e-0000-4000-8000-00000000cafe}"
 INSTANCES, STATES, AXES = 3, 4, 2
