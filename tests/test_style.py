@@ -7,11 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-COMMANDS = {
-    "formatted": ["ruff", "format", "--check", "."],
-    "linted": ["ruff", "check", "."],
-    "typed": ["mypy"],
-}
+COMMANDS = {"formatted": ["ruff", "format", "--check", "."], "linted": ["ruff", "check", "."], "typed": ["mypy"]}
 
 
 @pytest.mark.slow

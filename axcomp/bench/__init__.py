@@ -8,15 +8,15 @@ from ..model.face import face
 
 if TYPE_CHECKING:
     from .clock import Sample as Sample
-    from .engine import bench_engine as bench_engine
-    from .engine import bench_growth as bench_growth
-    from .engine import bench_lists as bench_lists
-    from .engine import bench_memory as bench_memory
+    from .engine import (
+        bench_engine as bench_engine,
+        bench_growth as bench_growth,
+        bench_lists as bench_lists,
+        bench_memory as bench_memory,
+    )
     from .fmu import bench_fmus as bench_fmus
     from .machines import machine_of as machine_of
-    from .native_host import NativeHost as NativeHost
-    from .native_host import bench_native_host as bench_native_host
-    from .native_host import plan_of as plan_of
+    from .native_host import NativeHost as NativeHost, bench_native_host as bench_native_host, plan_of as plan_of
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,

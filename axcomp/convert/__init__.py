@@ -7,34 +7,41 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .cec import read_cec as read_cec
-    from .cec import write_cec as write_cec
-    from .enc_comp import read_enc_comp as read_enc_comp
-    from .enc_comp import write_enc_comp as write_enc_comp
-    from .formats import FORMATS as FORMATS
-    from .formats import LISTS as LISTS
-    from .formats import Compared as Compared
-    from .formats import compared as compared
-    from .formats import recognized as recognized
-    from .formats import written as written
-    from .heidenhain import read_heidenhain as read_heidenhain
-    from .heidenhain import write_heidenhain as write_heidenhain
-    from .heidenhain import write_itnc as write_itnc
-    from .linuxcnc import read_linuxcnc as read_linuxcnc
-    from .linuxcnc import write_linuxcnc as write_linuxcnc
-    from .machines import CONVERTED as CONVERTED
-    from .machines import dropped as dropped
-    from .machines import machine_with as machine_with
-    from .machines import tables_of as tables_of
+    from .cec import read_cec as read_cec, write_cec as write_cec
+    from .enc_comp import read_enc_comp as read_enc_comp, write_enc_comp as write_enc_comp
+    from .formats import (
+        FORMATS as FORMATS,
+        LISTS as LISTS,
+        Compared as Compared,
+        compared as compared,
+        recognized as recognized,
+        written as written,
+    )
+    from .heidenhain import (
+        read_heidenhain as read_heidenhain,
+        write_heidenhain as write_heidenhain,
+        write_itnc as write_itnc,
+    )
+    from .linuxcnc import read_linuxcnc as read_linuxcnc, write_linuxcnc as write_linuxcnc
+    from .machines import (
+        CONVERTED as CONVERTED,
+        dropped as dropped,
+        machine_with as machine_with,
+        tables_of as tables_of,
+    )
     from .plain_csv import read_csv as read_csv
-    from .table import CompensationTable as CompensationTable
-    from .table import beginning_at as beginning_at
-    from .table import largest_difference as largest_difference
-    from .table import on_equidistant_points as on_equidistant_points
-    from .text import MAX_POINTS as MAX_POINTS
-    from .text import CannotHoldError as CannotHoldError
-    from .text import FormatError as FormatError
-    from .text import Options as Options
+    from .table import (
+        CompensationTable as CompensationTable,
+        beginning_at as beginning_at,
+        largest_difference as largest_difference,
+        on_equidistant_points as on_equidistant_points,
+    )
+    from .text import (
+        MAX_POINTS as MAX_POINTS,
+        CannotHoldError as CannotHoldError,
+        FormatError as FormatError,
+        Options as Options,
+    )
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,

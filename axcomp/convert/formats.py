@@ -38,10 +38,7 @@ _ALL = (
     Format("enc-comp", "SINUMERIK $AA_ENC_COMP: leadscrew, equidistant, unilateral", read_enc_comp, write_enc_comp),
     Format("cec", "SINUMERIK $AN_CEC: leadscrew (also bilateral) and cross, equidistant", read_cec, write_cec),
     Format(
-        "heidenhain",
-        "Heidenhain .COM of TNC 6xx and later: leadscrew and cross",
-        read_heidenhain,
-        write_heidenhain,
+        "heidenhain", "Heidenhain .COM of TNC 6xx and later: leadscrew and cross", read_heidenhain, write_heidenhain
     ),
     Format(
         "itnc",

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..kinds import Cross, Leadscrew, shown
-from ..kinds import tables_of as tables_of_machine
+from ..kinds import Cross, Leadscrew, shown, tables_of as tables_of_machine
 from ..model import Axis, AxisType, Curve, Grid, Machine, ModuloRange
 from .table import CompensationTable
 from .text import CannotHoldError, Unit

@@ -8,28 +8,23 @@ from ..model.face import face
 
 if TYPE_CHECKING:
     from .axis_list import AxisList as AxisList
-    from .creation import LEFT_OUT as LEFT_OUT
-    from .creation import MEASURED as MEASURED
-    from .creation import PREDICTED as PREDICTED
-    from .creation import CannotCreateError as CannotCreateError
-    from .creation import Creation as Creation
+    from .creation import (
+        LEFT_OUT as LEFT_OUT,
+        MEASURED as MEASURED,
+        PREDICTED as PREDICTED,
+        CannotCreateError as CannotCreateError,
+        Creation as Creation,
+    )
     from .crosstalk import AccelerationTests as AccelerationTests
-    from .driver import Fit as Fit
-    from .driver import Options as Options
+    from .driver import Fit as Fit, Options as Options
     from .friction import FrictionReadings as FrictionReadings
     from .hat_functions import hats as hats
     from .plane import Flatness as Flatness
-    from .registry import FITS as FITS
-    from .registry import create as create
-    from .registry import fit_of as fit_of
+    from .registry import FITS as FITS, create as create, fit_of as fit_of
     from .target_list import TargetList as TargetList
-    from .thinning import closest as closest
-    from .thinning import deviation as deviation
-    from .thinning import fewest as fewest
-    from .volumetric_basis import Sought as Sought
-    from .volumetric_basis import sought_errors as sought_errors
-    from .volumetric_identification import Identifier as Identifier
-    from .volumetric_identification import TcpDeviations as TcpDeviations
+    from .thinning import closest as closest, deviation as deviation, fewest as fewest
+    from .volumetric_basis import Sought as Sought, sought_errors as sought_errors
+    from .volumetric_identification import Identifier as Identifier, TcpDeviations as TcpDeviations
     from .volumetric_target import VolumetricTarget as VolumetricTarget
 else:
     __all__, __getattr__, __dir__ = face(

@@ -26,11 +26,7 @@ class CrossFit(SidedFit):
     meaning = "cross (sag) table from the deviation of a slave over a master"
     columns = "columns target (of the master), run, direction, deviation (of the slave; mm, µm)"
     example = "axcomp create cross --from sag.csv --into achskw3.lis --master 1"
-    arguments: ClassVar = {
-        **SidedFit.arguments,
-        "on-top": ON_TOP,
-        "master": axis_numbers("number of the master", 1),
-    }
+    arguments: ClassVar = {**SidedFit.arguments, "on-top": ON_TOP, "master": axis_numbers("number of the master", 1)}
     read = staticmethod(partial(read_positioning, of_another_axis=True))
     shown_as = "table × (−1)"
 

@@ -92,11 +92,7 @@ class PlaneFit(Fit[Flatness, Grid]):
     meaning = "plane table from the deviation of a slave over two masters"
     columns = "columns master1, master2, deviation (mm, µm), and run where there are several"
     example = "axcomp create plane --from table.csv --into achskw3.lis --masters 1 2 --bound 1"
-    arguments: ClassVar = {
-        **Fit.arguments,
-        "on-top": ON_TOP,
-        "masters": axis_numbers("numbers of the masters", 2),
-    }
+    arguments: ClassVar = {**Fit.arguments, "on-top": ON_TOP, "masters": axis_numbers("numbers of the masters", 2)}
     one_run = few_runs = "There are not two complete runs, so"
     read = Flatness.read
 

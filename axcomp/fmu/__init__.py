@@ -7,31 +7,29 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .archive import BuildError as BuildError
-    from .archive import content_guid as content_guid
-    from .archive import file_bytes as file_bytes
-    from .archive import generation_date as generation_date
-    from .archive import write_fmu as write_fmu
-    from .content import PACKAGE as PACKAGE
-    from .content import Built as Built
-    from .content import version as version
-    from .description import Description as Description
-    from .description import model_description as model_description
+    from .archive import (
+        BuildError as BuildError,
+        content_guid as content_guid,
+        file_bytes as file_bytes,
+        generation_date as generation_date,
+        write_fmu as write_fmu,
+    )
+    from .content import PACKAGE as PACKAGE, Built as Built, version as version
+    from .description import Description as Description, model_description as model_description
     from .instance import Instance as Instance
-    from .native_package import HEADERS as HEADERS
-    from .native_package import IMAGE as IMAGE
-    from .native_package import SOURCES as SOURCES
-    from .native_package import NoCompilerError as NoCompilerError
-    from .native_package import package_native as package_native
-    from .native_package import write_image as write_image
-    from .package import package_axcomp as package_axcomp
-    from .package import write_python_fmu as write_python_fmu
+    from .native_package import (
+        HEADERS as HEADERS,
+        IMAGE as IMAGE,
+        SOURCES as SOURCES,
+        NoCompilerError as NoCompilerError,
+        package_native as package_native,
+        write_image as write_image,
+    )
+    from .package import package_axcomp as package_axcomp, write_python_fmu as write_python_fmu
     from .packed_interface import Interface as Interface
-    from .packing import FOLDER as FOLDER
-    from .packing import packed_lists as packed_lists
+    from .packing import FOLDER as FOLDER, packed_lists as packed_lists
     from .saved import MAGIC as MAGIC
-    from .sources import needed_files as needed_files
-    from .sources import renamed_sources as renamed_sources
+    from .sources import needed_files as needed_files, renamed_sources as renamed_sources
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,

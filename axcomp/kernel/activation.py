@@ -35,13 +35,7 @@ def activate_if_stirred(
 
 
 def activate(
-    table: AxisTable,
-    axis: AxisState,
-    inputs: Inputs,
-    given: AxisInputs,
-    out: AxisOutputs,
-    released: bool,
-    moving: bool,
+    table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs, out: AxisOutputs, released: bool, moving: bool
 ) -> None:
     """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
 

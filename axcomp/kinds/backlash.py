@@ -12,9 +12,7 @@ from ..kernel import LARGEST
 from ..model import Axis, Compensation, Curve, Machine, Quantity
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, Reference, TableReader
-from .parameter import DataType, ListKind, Parameter, Severity, Value
-from .parameter import Quantity as ListQuantity
-from .parameter import axis as axis_id
+from .parameter import DataType, ListKind, Parameter, Quantity as ListQuantity, Severity, Value, axis as axis_id
 from .shown import Table, correction_of
 
 MODE, AMOUNT = "lr_param.anwahl_losekomp", "getriebe[i].lose"

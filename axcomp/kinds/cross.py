@@ -63,11 +63,7 @@ class CrossKind(Kind[Cross]):
     parameters = (
         Parameter(_MAX_POINTS, "Reserved entries; 0: default", DataType.UNS32, _POINTS, both("00060")),
         Parameter(
-            f"{PREFIX}unit",
-            "Positions: 0 increments, 1 metric (discontinued)",
-            DataType.BOOLEAN,
-            0,
-            isg("00003"),
+            f"{PREFIX}unit", "Positions: 0 increments, 1 metric (discontinued)", DataType.BOOLEAN, 0, isg("00003")
         ),
         Parameter(_LAST_INDEX, "Last index of the table", DataType.SGN32, 0, both("00004"), range="[0, MAX]"),
         Parameter(

@@ -35,6 +35,7 @@ from .parameter import (
     BELOW_MAX,
     DataType,
     Parameter,
+    Quantity as ListQuantity,
     Severity,
     activation,
     both,
@@ -43,7 +44,6 @@ from .parameter import (
     smooth_switching,
     twincat,
 )
-from .parameter import Quantity as ListQuantity
 from .shown import ACCELERATION, NEGATIVE, POSITIVE, Range, Table, correction_of, position_of, ranges_of
 
 
@@ -101,12 +101,7 @@ class CrosstalkKind(Kind["Crosstalk | CrosstalkCurve"]):
             for i, (name, number) in enumerate(zip(ADAPTATION, ("00080", "00081"), strict=True), 1)
         ),
         Parameter(
-            MODE,
-            "1 constant, 2 over one adaptation axis, 3 over two",
-            DataType.UNS08,
-            1,
-            isg("00082"),
-            range="[1, 3]",
+            MODE, "1 constant, 2 over one adaptation axis, 3 over two", DataType.UNS08, 1, isg("00082"), range="[1, 3]"
         ),
         Parameter(
             MAX_POINTS,

@@ -9,8 +9,7 @@ from ..kernel import DELAY_LINE, LARGEST, LOOKAHEAD_MAX
 from ..model import Axis, Compensation, Curve, Machine, Quantity, symbol
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
-from .parameter import BELOW_MAX, DataType, Parameter, Severity, activation, both
-from .parameter import Quantity as ListQuantity
+from .parameter import BELOW_MAX, DataType, Parameter, Quantity as ListQuantity, Severity, activation, both
 from .shown import SPEED, Table
 from .units import span
 

@@ -10,17 +10,7 @@ from ..model import Axis, Compensation, Curve, Machine
 from . import shown
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, TableReader
-from .parameter import (
-    BELOW_MAX,
-    DataType,
-    Manual,
-    Parameter,
-    Quantity,
-    Severity,
-    activation,
-    both,
-    position,
-)
+from .parameter import BELOW_MAX, DataType, Manual, Parameter, Quantity, Severity, activation, both, position
 from .shown import Table, correction_of, position_of
 from .units import equidistant, in_list, span
 
@@ -126,10 +116,7 @@ class LeadscrewKind(Kind[Leadscrew]):
             "A modulo table on an axis without modulo counting; it is read without modulo",
         ),
         "AXC-MODULO-SPAN": (Severity.ERROR, "A modulo table spans more than one modulo range"),
-        "AXC-MODULO-SEAM": (
-            Severity.WARNING,
-            "A modulo table spans exactly one range and its end values differ",
-        ),
+        "AXC-MODULO-SEAM": (Severity.WARNING, "A modulo table spans exactly one range and its end values differ"),
         "110638": (Severity.ERROR, "Leadscrew compensation: max_points was changed by an update"),
     }
 

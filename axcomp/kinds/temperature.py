@@ -12,8 +12,7 @@ from ..kernel import LARGEST
 from ..model import Axis, AxisType, Compensation, Curve, Machine
 from .compiling import AxisCompiler
 from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
-from .parameter import DataType, ListKind, Parameter, Quantity, Severity, activation, position
-from .parameter import axis as axis_id
+from .parameter import DataType, ListKind, Parameter, Quantity, Severity, activation, axis as axis_id, position
 from .shown import Table, correction_of, position_of
 from .units import convert, in_list
 

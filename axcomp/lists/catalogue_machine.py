@@ -63,13 +63,7 @@ START_UP = (
         _start_up("00035"),
     ),
     Parameter(
-        "zahl_mds",
-        "Number of axis lists",
-        DataType.SGN16,
-        0,
-        _start_up("00014"),
-        range="[1, 32]",
-        usable="[0, 32]",
+        "zahl_mds", "Number of axis lists", DataType.SGN16, 0, _start_up("00014"), range="[1, 32]", usable="[0, 32]"
     ),
     Parameter("achs_mds[i]", "File name of an axis list", DataType.STRING, "", _start_up("00015"), index_max=(31,)),
     Parameter(

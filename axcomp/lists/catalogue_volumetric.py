@@ -35,13 +35,7 @@ VOLUMETRIC = (
     Parameter("set_to_zero", "Axes whose correction is left out", DataType.STRING, "", _id(10), length=3),
     Parameter("alternative_model", "Rotary axes turn about their displaced axis", DataType.BOOLEAN, 0, _id(11)),
     Parameter(
-        "file[j]",
-        "Parameter file",
-        DataType.STRING,
-        "",
-        _id(12),
-        index_max=(FILES_MAX - 1,),
-        index_code="70507",
+        "file[j]", "Parameter file", DataType.STRING, "", _id(12), index_max=(FILES_MAX - 1,), index_code="70507"
     ),
     Parameter(
         "file_format[j]",

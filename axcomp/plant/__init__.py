@@ -11,21 +11,23 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .fmu import package_plant as package_plant
-    from .fmu import plant_variables as plant_variables
-    from .machine import Plant as Plant
-    from .machine import PlantError as PlantError
-    from .simulated import CYCLE_TIME as CYCLE_TIME
-    from .simulated import acceleration_test as acceleration_test
-    from .simulated import deviation as deviation
-    from .simulated import flatness as flatness
-    from .simulated import friction_current as friction_current
-    from .simulated import load_plant as load_plant
-    from .simulated import positioning as positioning
-    from .simulated import straightness as straightness
-    from .simulated_volume import IsoErrors as IsoErrors
-    from .simulated_volume import linear_axis_errors as linear_axis_errors
-    from .simulated_volume import table_errors as table_errors
+    from .fmu import package_plant as package_plant, plant_variables as plant_variables
+    from .machine import Plant as Plant, PlantError as PlantError
+    from .simulated import (
+        CYCLE_TIME as CYCLE_TIME,
+        acceleration_test as acceleration_test,
+        deviation as deviation,
+        flatness as flatness,
+        friction_current as friction_current,
+        load_plant as load_plant,
+        positioning as positioning,
+        straightness as straightness,
+    )
+    from .simulated_volume import (
+        IsoErrors as IsoErrors,
+        linear_axis_errors as linear_axis_errors,
+        table_errors as table_errors,
+    )
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,

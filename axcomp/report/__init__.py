@@ -7,10 +7,6 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .report import REPEATS as REPEATS
-    from .report import make_report as make_report
+    from .report import REPEATS as REPEATS, make_report as make_report
 else:
-    __all__, __getattr__, __dir__ = face(
-        __name__,
-        report="REPEATS make_report",
-    )
+    __all__, __getattr__, __dir__ = face(__name__, report="REPEATS make_report")

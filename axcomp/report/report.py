@@ -22,6 +22,7 @@ from ..plot import (
     Records,
     contents_of,
     document,
+    figure as number,
     html_table,
     navigation,
     new_figure,
@@ -31,7 +32,6 @@ from ..plot import (
     remarks,
     section,
 )
-from ..plot import figure as number
 
 CONTRIBUTIONS_SHOWN = 12
 """Of each axis in the table of the budget."""

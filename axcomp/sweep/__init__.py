@@ -7,21 +7,18 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .journal import Journal as Journal
-    from .journal import keys_of as keys_of
-    from .list_variation import ListEntry as ListEntry
-    from .list_variation import Table as Table
-    from .list_variation import read_files as read_files
-    from .list_variation import varied as varied
+    from .journal import Journal as Journal, keys_of as keys_of
+    from .list_variation import ListEntry as ListEntry, Table as Table, read_files as read_files, varied as varied
     from .reductions import Reduction as Reduction
-    from .spec import ERROR as ERROR
-    from .spec import FINDINGS as FINDINGS
-    from .spec import RUN as RUN
-    from .spec import Spec as Spec
-    from .spec import SpecError as SpecError
-    from .spec import read_spec as read_spec
-    from .sweep import job_of as job_of
-    from .sweep import run_sweep as run_sweep
+    from .spec import (
+        ERROR as ERROR,
+        FINDINGS as FINDINGS,
+        RUN as RUN,
+        Spec as Spec,
+        SpecError as SpecError,
+        read_spec as read_spec,
+    )
+    from .sweep import job_of as job_of, run_sweep as run_sweep
     from .task import perform as perform
 else:
     __all__, __getattr__, __dir__ = face(

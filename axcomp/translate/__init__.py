@@ -19,10 +19,4 @@ from .__main__ import main
 from .emit import Translation, translate
 from .subset import Refusal, TranslationError
 
-__all__ = [
-    "Refusal",
-    "Translation",
-    "TranslationError",
-    "main",
-    "translate",
-]
+__all__ = ["Refusal", "Translation", "TranslationError", "main", "translate"]

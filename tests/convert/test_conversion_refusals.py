@@ -4,8 +4,7 @@ from collections.abc import Callable
 
 import pytest
 from drawn_tables import changed
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from axcomp.convert import (
     FORMATS,

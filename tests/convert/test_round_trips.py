@@ -4,8 +4,7 @@ from collections.abc import Callable
 
 import pytest
 from drawn_tables import HALF_RESOLUTION, changed, tables
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.convert import FORMATS, CompensationTable, Options, largest_difference, machine_with, tables_of, written
 

@@ -3,8 +3,7 @@
 import warnings
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from axcomp.cli import main
 from axcomp.lists import read_machine

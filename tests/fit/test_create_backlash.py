@@ -8,8 +8,7 @@ from functools import partial
 import numpy as np
 import pytest
 from creating import THREE_AXIS, copied_lists, measured
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from axcomp.cli import main
 from axcomp.engine import Engine

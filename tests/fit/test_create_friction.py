@@ -5,8 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 from creating import copied_lists, plant
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, FrictionReadings, Options, TargetList, create
 from axcomp.lists import read_machine

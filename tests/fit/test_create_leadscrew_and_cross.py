@@ -6,8 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 from creating import copied_lists, measured, plant, positioning_of
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.engine import Engine
 from axcomp.fit import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Options, TargetList, create
@@ -168,10 +167,7 @@ def test_the_deviation_of_a_table_on_top_is_that_from_the_old_one_and_the_measur
     after = creation.compensation
     off = [
         np.abs(1e3 * np.interp(TARGETS, after.positions, new) - 1e3 * np.interp(TARGETS, before.positions, old) - error)
-        for new, old, error in (
-            (after.positive, before.positive, rest[1]),
-            (after.negative, before.negative, rest[-1]),
-        )
+        for new, old, error in ((after.positive, before.positive, rest[1]), (after.negative, before.negative, rest[-1]))
     ]
     assert creation.deviation == pytest.approx(np.max(off), abs=1e-6)
     assert creation.deviation <= (bound or 0.05) + 1e-9

@@ -6,8 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 from creating import copied_lists, plant
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
 from axcomp.fit import LEFT_OUT, PREDICTED, CannotCreateError, Flatness, Options, TargetList, create

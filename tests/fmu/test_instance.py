@@ -16,8 +16,7 @@ import pytest
 from fmu_machines import three_axes, trajectory
 
 from axcomp.engine import Engine
-from axcomp.fmu import MAGIC, Instance
-from axcomp.fmu import instance as instance_module
+from axcomp.fmu import MAGIC, Instance, instance as instance_module
 from axcomp.interface import Value, by_name, variables_of
 from axcomp.kinds import Severity
 from axcomp.lists import write_machine

@@ -5,8 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 from driving import drive, forward, to_and_fro
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator, RegularGridInterpolator
 from scipy.spatial import ConvexHull
@@ -51,10 +50,7 @@ class TestOneTest:
     ) -> None:
         # in mm/s: 1e-7 is 1e-10 mm a cycle, which is no motion; 2e-6 is one
         v = np.array([0.0, -1e-7, 5.0, 0.0, -5.0, 0.0, 0.0, 1e-7, 0.0, 2e-6, 0.0, -2e-6, 1e-7, -3.0])
-        run = drive(
-            machine(crosstalk(1, [self.TEST], velocity_dependent=True)),
-            {"X.velocity": v, "X.acceleration": a},
-        )
+        run = drive(machine(crosstalk(1, [self.TEST], velocity_dependent=True)), {"X.velocity": v, "X.acceleration": a})
         moves = np.where(np.abs(v) * 1e-3 >= 1e-9, np.sign(v), 0)
         expected = np.where(forward(moves, 1) > 0, positive, negative)
         assert run["Y.crosstalk_correction"] == pytest.approx(expected, abs=1e-17)

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from driving import drive, forward
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 from numpy.typing import NDArray
 
 from axcomp.kinds import Friction
@@ -168,10 +167,7 @@ class TestLookaheadInTheDelayLine:
     def test_any_motion_against_the_whole_trajectory(self, lookahead: int, more: int, delay: float, seed: int) -> None:
         s, v = motion(600, np.random.default_rng(seed))
         table = friction(
-            scaling=0.8,
-            position_delay=delay,
-            reversal_lookahead=lookahead,
-            delay_cycles=min(lookahead + more, 248),
+            scaling=0.8, position_delay=delay, reversal_lookahead=lookahead, delay_cycles=min(lookahead + more, 248)
         )
         # setpoints that follow the velocity: |s − s_reversal| only grows until the next reversal
         run = drive(machine(table), {"X.setpoint": s, "X.velocity": v})

@@ -5,8 +5,7 @@ import copy
 import numpy as np
 import pytest
 from driving import to_and_fro
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from strategies import machines
 
 from axcomp.kernel import Outputs, State, Tables, cycle, move_axis_table, tables_fit, zero

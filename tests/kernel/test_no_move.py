@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from driving import drive, soft
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.kinds import Cross, CrosstalkCurve, Leadscrew, Plane
 from axcomp.model import Axis, Machine

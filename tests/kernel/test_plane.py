@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from driving import drive, to_and_fro
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.interpolate import RegularGridInterpolator
 
 from axcomp.kinds import Plane

@@ -2,8 +2,7 @@
 
 import numpy as np
 from driving import OUTPUTS, drive
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 from strategies import machines
 
@@ -11,11 +10,7 @@ from axcomp.kinds import KIND_NAMES, Backlash, Cross, Crosstalk, CrosstalkCurve,
 from axcomp.model import Axis, Machine, ModuloRange
 from axcomp.runtime import Runtime
 
-EVENTS = (
-    "referenced",
-    "no_move",
-    *(f"{kind}_enable" for kind in KIND_NAMES),
-)
+EVENTS = ("referenced", "no_move", *(f"{kind}_enable" for kind in KIND_NAMES))
 
 
 def anything(machine: Machine, seed: int, cycles: int = 90) -> dict[str, NDArray[np.float64]]:

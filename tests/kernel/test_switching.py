@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from driving import drive, soft, walk
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import ArrayLike, NDArray
 
 from axcomp.kinds import Backlash, Cross, CrosstalkCurve, Friction, Leadscrew, Plane, Temperature

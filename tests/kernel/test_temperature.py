@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from driving import drive, soft, to_and_fro, walk
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
 from axcomp.kinds import Cross, Leadscrew, Temperature

@@ -102,11 +102,7 @@ def machine(code: str, files: dict[str, str | bytes], line: int, parameter: str,
 
 def one_axis(compensation: str, axis: str) -> dict[str, str | bytes]:
     """Return the lists of a machine with axis 1 only."""
-    return {
-        "hochlauf.lis": start_up("kw.lis", axes=MDS),
-        "kw.lis": compensation,
-        "achsmd1.lis": axis_list(1, axis),
-    }
+    return {"hochlauf.lis": start_up("kw.lis", axes=MDS), "kw.lis": compensation, "achsmd1.lis": axis_list(1, axis)}
 
 
 MDS = ("achsmd1.lis",)
@@ -179,11 +175,7 @@ CASES = [
     one("AXC-NUMBER", LEADSCREW.replace("kopf.achs_nr 1\n", ""), 0, "kopf.achs_nr", "leadscrew"),
     one("AXC-NUMBER", LEADSCREW.replace("kopf.achs_nr 1", "kopf.achs_nr 0"), 1, "kopf.achs_nr", "leadscrew"),
     Case(
-        "AXC-NUMBER",
-        {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": "lr_param.ssfk 0\n"},
-        0,
-        "kopf.achs_nr",
-        None,
+        "AXC-NUMBER", {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": "lr_param.ssfk 0\n"}, 0, "kopf.achs_nr", None
     ),
     machine("AXC-NUMBER-TWICE", {"achskw1.lis": LEADSCREW, "achskw2.lis": CROSS}, 1, "kopf.achs_nr", "leadscrew"),
     machine(
@@ -268,12 +260,7 @@ CASES = [
         "getriebe[0].moduloo",
     ),
     # Compensations
-    machine(
-        "AXC-INACTIVE",
-        one_axis(LEADSCREW, ""),
-        5,
-        "kw.ssfk.table[0].pos",
-    ),
+    machine("AXC-INACTIVE", one_axis(LEADSCREW, ""), 5, "kw.ssfk.table[0].pos"),
     one("AXC-INACTIVE", FRICTION.replace("mode 3", "mode 0"), 2, "frict_comp.mode"),
     machine(
         "AXC-NO-TABLE",
@@ -286,12 +273,7 @@ CASES = [
     one("AXC-GAP", LEADSCREW.replace("kw.ssfk.table[0].pos 1\n", ""), 5, "kw.ssfk.table[0].pos", "leadscrew"),
     one("AXC-GAP", f"{PLANE}kw.crosscomp2.last_index_master1 3\n", 6, "kw.crosscomp2.table[0][1].correction", "plane"),
     one("AXC-MASTER", CROSS.replace("kw.crosscomp.master_ax_nr 2\n", ""), 0, "kw.crosscomp.master_ax_nr"),
-    machine(
-        "AXC-MASTER",
-        one_axis(CROSS, "lr_param.crosscomp 1\n"),
-        4,
-        "kw.crosscomp.master_ax_nr",
-    ),
+    machine("AXC-MASTER", one_axis(CROSS, "lr_param.crosscomp 1\n"), 4, "kw.crosscomp.master_ax_nr"),
     machine(
         "AXC-MASTER",
         {
@@ -426,12 +408,7 @@ CASES = [
         "crosstalk",
     ),
     one("70182", PLANE.replace("kw.crosscomp2.master2_ax_nr 3\n", ""), 0, "kw.crosscomp2.master2_ax_nr"),
-    machine(
-        "70182",
-        one_axis(PLANE, "lr_param.crosscomp2 1\n"),
-        4,
-        "kw.crosscomp2.master1_ax_nr",
-    ),
+    machine("70182", one_axis(PLANE, "lr_param.crosscomp2 1\n"), 4, "kw.crosscomp2.master1_ax_nr"),
     one("70183", "kopf.achs_nr 1\nkw.crosscomp2.last_index_master1 4\n", 2, "kw.crosscomp2.last_index_master1"),
     machine(
         "70183",
@@ -454,12 +431,7 @@ CASES = [
     one("AXC-SLAVE", CROSS.replace("master_ax_nr", "slave_ax_nr"), 4, "kw.crosscomp.slave_ax_nr", "cross"),
     one("70245", CROSS.replace("setpoint 1000", "setpoint 0"), 7, "kw.crosscomp.table[1].setpoint"),
     one("70245", CROSS.replace("last_index 1", "last_index 2"), 7, "kw.crosscomp.table[2].setpoint"),
-    machine(
-        "70495",
-        one_axis(FRICTION, ""),
-        4,
-        "frict_comp.table[0].in",
-    ),
+    machine("70495", one_axis(FRICTION, ""), 4, "frict_comp.table[0].in"),
     one("110591", FRICTION.replace("in 2000", "in 500"), 6, "frict_comp.table[1].in"),
     one("110591", FRICTION.replace("in 1000", "in -1000"), 4, "frict_comp.table[0].in"),
     one("110647", f"kw.ssfk.max_points 2\n{LEADSCREW}", 5, "kw.ssfk.kw_nr_max"),

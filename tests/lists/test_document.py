@@ -1,8 +1,7 @@
 """A table put into a list: what changes, and that nothing else does."""
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.kinds import ListKind
 from axcomp.lists import CATALOGUE, Document, Findings, read_values

@@ -57,10 +57,7 @@ def test_a_printed_finding_names_the_entry(case: Case, read_lists: ReadLists) ->
     [
         (FRICTION.replace("in 2000", "in 500"), "frict_comp.table[1].in = 500 is not above the entry before it, 1000;"),
         (CROSS.replace("last_index 1", "last_index 2"), "(is kw.crosscomp.last_index = 2 too large?)"),
-        (
-            CROSSTALK.replace("deceleration -1000", "deceleration 0") + places((0, 0)),
-            "deceleration is needed and must",
-        ),
+        (CROSSTALK.replace("deceleration -1000", "deceleration 0") + places((0, 0)), "deceleration is needed and must"),
         (
             f"kw.ssfk.max_points 2\n{LEADSCREW}",
             "By kw.ssfk.kw_nr_max the table has 3 entries, but there is room for 2;",
@@ -112,10 +109,7 @@ def test_the_same_fault_in_every_row_is_counted_not_repeated(read_lists: ReadLis
 
 def test_slips_are_not_lost_among_entries_of_other_functions(read_lists: ReadLists) -> None:
     strangers = "".join(f"other.parameter_{i} 1\n" for i in range(300))
-    files = {
-        "hochlauf.lis": start_up(axes=MDS),
-        "achsmd1.lis": axis_list(1, f"{strangers}lr_param.sskf 1\n"),
-    }
+    files = {"hochlauf.lis": start_up(axes=MDS), "achsmd1.lis": axis_list(1, f"{strangers}lr_param.sskf 1\n")}
     reading = read_lists(files)
     [slip] = [f for f in reading.findings if f.parameter == "lr_param.sskf"]
     assert "lr_param.ssfk" in slip.message

@@ -5,8 +5,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from axcomp.kinds import METRIC, Gear, Quantity, convert, equidistant, in_list
 from axcomp.lists import Reading

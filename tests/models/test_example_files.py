@@ -152,10 +152,7 @@ def test_expected_plane_correction_is_bilinear_in_the_raw_setpoints() -> None:
     plane = read_machine(model).machine.axis("X").plane
     assert plane is not None
     rows, columns = np.shape(plane.corrections)
-    grid = (
-        plane.start2 + plane.interval2 * np.arange(rows),
-        plane.start1 + plane.interval1 * np.arange(columns),
-    )
+    grid = (plane.start2 + plane.interval2 * np.arange(rows), plane.start1 + plane.interval1 * np.arange(columns))
     given, expected = read_csv(model / INPUT), read_csv(model / EXPECTED)
     values = RegularGridInterpolator(grid, np.array(plane.corrections))(
         np.column_stack([given["Z.setpoint"], given["Y.setpoint"]])

@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from strategies import machines
 
 from axcomp.kernel import AxisInputs, Inputs, Outputs, State, Tables, cycle, fields_of, zero

@@ -93,10 +93,7 @@ def test_a_turn_of_the_table_carries_the_workpiece_away_under_the_tool() -> None
     description = {
         "workpiece": ["C"],
         "tool": ["X"],
-        "axes": {
-            "C": {"direction": [0, 0, 1], "center": [100, 0, 0]},
-            "X": {"direction": [1, 0, 0]},
-        },
+        "axes": {"C": {"direction": [0, 0, 1], "center": [100, 0, 0]}, "X": {"direction": [1, 0, 0]}},
         "tool_position": [0, 0, 50],
         "tool_direction": [0, 0, -1],
     }

@@ -36,12 +36,7 @@ def test_every_compensation_is_there_in_the_order_of_a_cycle() -> None:
 
 def test_a_leadscrew_shows_the_values_of_the_list_in_micrometres_and_their_difference() -> None:
     records = _content(MACHINE, "X", "leadscrew").records()
-    assert records.columns == (
-        "position of X [mm]",
-        "positive motion [µm]",
-        "negative motion [µm]",
-        "difference [µm]",
-    )
+    assert records.columns == ("position of X [mm]", "positive motion [µm]", "negative motion [µm]", "difference [µm]")
     assert np.allclose(records.rows, [(0, 0, 1, -1), (10, 4, 6, -2), (40, -2, 1, -3)])
 
 

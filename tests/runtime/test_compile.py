@@ -14,9 +14,9 @@ from axcomp.kernel import (
     CROSSTALK_LINE,
     CROSSTALK_TRIANGLES,
     FRICTION,
+    PLANE as PLANE_KIND,
     tables_fit,
 )
-from axcomp.kernel import PLANE as PLANE_KIND
 from axcomp.kinds import (
     KINDS,
     Backlash,

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.kernel import Inputs, Outputs, State, zero
 from axcomp.runtime import SnapshotError, identity_of, pack, unpack

@@ -23,11 +23,7 @@ def test_the_committed_c_is_what_the_kernel_translates_to() -> None:
     assert (NATIVE / "kernel.c").read_text("utf-8") == translation.source, "run python -m axcomp.translate"
 
 
-COMPILERS = {
-    "C99": ["gcc", "-std=c99"],
-    "C++": ["g++", "-std=c++11", "-x", "c++"],
-    "clang": ["clang", "-std=c99"],
-}
+COMPILERS = {"C99": ["gcc", "-std=c99"], "C++": ["g++", "-std=c++11", "-x", "c++"], "clang": ["clang", "-std=c99"]}
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)

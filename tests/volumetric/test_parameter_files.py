@@ -1,8 +1,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from axcomp.kinds import Severity
 from axcomp.lists import Finding, Findings, ParameterBlock, read_etalon, read_isg_csv, write_etalon, write_isg_csv

@@ -54,10 +54,7 @@ def test_compensations_that_undo_each_other_are_within_the_limit() -> None:
 @pytest.mark.parametrize("faulty", [0, 5, 6, 7])
 def test_an_axis_in_error_stops_all_others_that_take_part(faulty: int) -> None:
     machine = machine_of(shifted())
-    slaves = (
-        Axis(12, "X2", volumetric_limit=1.0, gantry_master=1),
-        Axis(16, "C2", AxisType.ROTARY, gantry_master=6),
-    )
+    slaves = (Axis(12, "X2", volumetric_limit=1.0, gantry_master=1), Axis(16, "C2", AxisType.ROTARY, gantry_master=6))
     bench = Bench(machine=replace(machine, axes=(*machine.axes, *slaves)))
     bench.run()
     bench.inputs.axis[faulty].fault = True

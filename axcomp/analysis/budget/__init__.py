@@ -7,22 +7,26 @@ from typing import TYPE_CHECKING
 from ...model.face import face
 
 if TYPE_CHECKING:
-    from .contributions import POINTS as POINTS
-    from .contributions import Budget as Budget
-    from .contributions import budget_of as budget_of
-    from .contributions import largest as largest
-    from .contributions import rms as rms
-    from .picture import SHOWN as SHOWN
-    from .picture import budget_figure as budget_figure
-    from .picture import plot_waterfall as plot_waterfall
-    from .propagation import COVERAGE as COVERAGE
-    from .propagation import PLACES as PLACES
-    from .propagation import TRIALS as TRIALS
-    from .propagation import TcpUncertainty as TcpUncertainty
-    from .propagation import tcp_uncertainty as tcp_uncertainty
-    from .uncertainty import Uncertainty as Uncertainty
-    from .uncertainty import UncertaintyError as UncertaintyError
-    from .uncertainty import read_uncertainties as read_uncertainties
+    from .contributions import (
+        POINTS as POINTS,
+        Budget as Budget,
+        budget_of as budget_of,
+        largest as largest,
+        rms as rms,
+    )
+    from .picture import SHOWN as SHOWN, budget_figure as budget_figure, plot_waterfall as plot_waterfall
+    from .propagation import (
+        COVERAGE as COVERAGE,
+        PLACES as PLACES,
+        TRIALS as TRIALS,
+        TcpUncertainty as TcpUncertainty,
+        tcp_uncertainty as tcp_uncertainty,
+    )
+    from .uncertainty import (
+        Uncertainty as Uncertainty,
+        UncertaintyError as UncertaintyError,
+        read_uncertainties as read_uncertainties,
+    )
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 from ...model.face import face
 
 if TYPE_CHECKING:
-    from .files import Written as Written
-    from .files import write_diagnoses as write_diagnoses
-    from .records import Diagnosis as Diagnosis
-    from .records import Record as Record
-    from .records import diagnose as diagnose
-    from .records import volumetric_lists as volumetric_lists
-    from .records import write_named_diagnoses as write_named_diagnoses
+    from .files import Written as Written, write_diagnoses as write_diagnoses
+    from .records import (
+        Diagnosis as Diagnosis,
+        Record as Record,
+        diagnose as diagnose,
+        volumetric_lists as volumetric_lists,
+        write_named_diagnoses as write_named_diagnoses,
+    )
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,

@@ -14,8 +14,7 @@ from datetime import datetime
 from pathlib import Path
 
 from openpyxl import Workbook
-from openpyxl.cell import Cell as OpenpyxlCell
-from openpyxl.cell import WriteOnlyCell
+from openpyxl.cell import Cell as OpenpyxlCell, WriteOnlyCell
 from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet

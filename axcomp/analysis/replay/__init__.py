@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 from ...model.face import face
 
 if TYPE_CHECKING:
-    from .comparison import EXPLAINED as EXPLAINED
-    from .comparison import WITHIN as WITHIN
-    from .comparison import WITHIN_OTHER as WITHIN_OTHER
-    from .comparison import Comparison as Comparison
-    from .comparison import compare as compare
+    from .comparison import (
+        EXPLAINED as EXPLAINED,
+        WITHIN as WITHIN,
+        WITHIN_OTHER as WITHIN_OTHER,
+        Comparison as Comparison,
+        compare as compare,
+    )
     from .picture import replay_figure as replay_figure
     from .trace import read_trace as read_trace
 else:

@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING
 from ...model.face import face
 
 if TYPE_CHECKING:
-    from .files import EXPECTED as EXPECTED
-    from .files import INPUT as INPUT
-    from .files import read_csv as read_csv
-    from .files import write_expected as write_expected
-    from .files import write_input as write_input
-    from .files import write_lists as write_lists
+    from .files import (
+        EXPECTED as EXPECTED,
+        INPUT as INPUT,
+        read_csv as read_csv,
+        write_expected as write_expected,
+        write_input as write_input,
+        write_lists as write_lists,
+    )
     from .machines import MACHINES as MACHINES
     from .trajectories import TRAJECTORIES as TRAJECTORIES
 else:

@@ -6,8 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from diagnosed_lists import write_lists
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from axcomp.analysis.diagnosis import Diagnosis, Record, diagnose, volumetric_lists
 from axcomp.lists import read_machine

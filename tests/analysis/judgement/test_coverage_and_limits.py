@@ -79,8 +79,7 @@ def volumetric_machine(limit: float | None = 1.0, **more) -> Machine:
 
 
 @pytest.mark.parametrize(
-    ("limit", "expected"),
-    [(0.8, ["AXC-LIMIT-EXCEEDED"]), (1.0, ["AXC-LIMIT-NEAR"]), (1.2, []), (None, [])],
+    ("limit", "expected"), [(0.8, ["AXC-LIMIT-EXCEEDED"]), (1.0, ["AXC-LIMIT-NEAR"]), (1.2, []), (None, [])]
 )
 def test_the_largest_correction_is_compared_with_s_limit(limit: float | None, expected: list[str]) -> None:
     machine = volumetric_machine(limit)

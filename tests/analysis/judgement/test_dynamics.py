@@ -129,9 +129,6 @@ def test_a_table_without_modulo_steps_where_its_axis_begins_again() -> None:
     machine = table_of_c((10.0, 350.0), (0.001, 0.003), modulo=False)
     assert "steps by +7.2 ″" in said(judge(machine), "AXC-SEAM")
     cross = Machine(
-        (
-            Axis(1, "X", cross=Cross(2, (0.0, 180.0), (0.0, 0.01))),
-            Axis(2, "C", AxisType.ROTARY, ModuloRange()),
-        )
+        (Axis(1, "X", cross=Cross(2, (0.0, 180.0), (0.0, 0.01))), Axis(2, "C", AxisType.ROTARY, ModuloRange()))
     )
     assert "steps by -10.0 µm where C begins again" in said(judge(cross), "AXC-SEAM")

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 from judging import codes, cross_machine, judge, leadscrew_machine, plane_machine, table_of_c
 
 from axcomp.analysis.judgement import spikes

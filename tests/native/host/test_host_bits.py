@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from host_program import OK, Program, bits, text
 from host_trajectory import Columns, expected_results, motion, write_trajectory
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 from strategies import machines
 
 from axcomp import Machine

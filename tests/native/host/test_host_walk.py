@@ -459,11 +459,4 @@ def test_the_walk_visits_every_phase_and_both_outcomes() -> None:
         "deserialize",
     ):
         assert {(call, OK), (call, ERROR)} <= calls, call
-    assert walk.happened == {
-        "nothing",
-        "taken",
-        "kept",
-        "refused",
-        "reset while lists wait",
-        "a state of other lists",
-    }
+    assert walk.happened == {"nothing", "taken", "kept", "refused", "reset while lists wait", "a state of other lists"}
