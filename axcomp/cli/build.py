@@ -9,10 +9,12 @@ from pathlib import Path
 
 from ..analysis.diagnosis import write_named_diagnoses
 from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
+from ..lists import Severity
 from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
 from ..plant import package_plant
 from .axis_type import add_axis_type
+from .check import STATUS_MAX
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -22,7 +24,8 @@ The native FMU holds a library for each platform and its C sources, and needs no
 serves the machine itself; with the compiler of axcomp[cross] all platforms can be asked for. The FMU of
 --runtime python needs no compiler, but Python in the host.
 
---image writes the tables of the lists, which a running native FMU takes by its input reload.
+--image writes the tables of the lists, which a running native FMU takes by its input reload; the exit status is then
+the number of errors in the lists, at most 100: such an image is written, and reload refuses it.
 
 A diagnosis file that a volumetric list names is written too, as axcomp diagnose does.
 
@@ -110,7 +113,9 @@ def _do_build(args: argparse.Namespace) -> int:
     except BuildError as error:
         print(f"axcomp build: {error}", file=sys.stderr)
         return 1
-    return 0
+    if args.image is None:
+        return 0
+    return min(sum(finding.severity is Severity.ERROR for finding in built.findings), STATUS_MAX)
 
 
 def _build(args: argparse.Namespace, lists: Path) -> Built:

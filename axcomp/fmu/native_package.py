@@ -78,7 +78,7 @@ def package_native(
         content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
     )
     guid = _guid(content)
-    image = image_of(content.compiled, guid)
+    image = image_of(content.compiled, guid, content.findings)
     files[f"resources/{IMAGE}"] = image
     files.update((f"sources/{name}", _source(name)) for name in (*SOURCES, *HEADERS))
     files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()
@@ -98,6 +98,8 @@ def write_image(
 ) -> Built:
     """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
 
+    It is written for lists with errors too, and carries them: ``reload`` refuses it then.
+
     Raises
     ------
     BuildError
@@ -105,14 +107,14 @@ def write_image(
     """
     content = read_content(lists, cycle_time, axis_type=axis_type)
     path = output_path(output, IMAGE)
-    write_file(path, image_of(content.compiled, _guid(content)))
+    write_file(path, image_of(content.compiled, _guid(content), content.findings))
     return content._replace(path=path)
 
 
 def _guid(content: Built) -> str:
     """Return a guid that depends on variables and tables, not on date, compiler and platforms."""
     description = model_description(replace(content.description, generated=""), content.variables, "")
-    return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "")})
+    return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "", content.findings)})
 
 
 def _libraries(platforms: Sequence[str]) -> dict[str, bytes]:

@@ -60,8 +60,8 @@ makes one whose libraries start Python. Variables, value references and results 
 | | native | `--runtime python` |
 | --- | --- | --- |
 | Needs in the host | nothing | Python 3.11 or later in its process, as FMPy has |
-| `update_path` | an image, made by `axcomp build --image FILE`, which shows the findings; empty: its own \
-one | a start-up list, its folder or a single list; empty: those in `resources/` |
+| `update_path` | an image, made by `axcomp build --image FILE`, which shows the findings; empty: its \
+own one; lists with errors are refused | a start-up list, its folder or a single list; empty: those in `resources/`; lists with errors are refused |
 | Changed lists in `resources/` | are not read: they travel along; build again | act in the next instance; a new \
 compensation acts, but its variables are not there |
 | Serialized state after `reload` | comes back in instances that have read the same images | \

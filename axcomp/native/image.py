@@ -4,20 +4,34 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
+from ..lists import Finding, Severity
 from ..runtime import Compiled
 from .layout import ctypes_of, to_c
 from .places import layout
 
-MAGIC = b"AXCOMPT1"
+MAGIC = b"AXCOMPT2"
 HEADER_BEFORE_CHECK = struct.Struct("<8sIHHI")
-HEADER_AFTER_CHECK = struct.Struct("<40sd")
+HEADER_AFTER_CHECK = struct.Struct("<40sdI228s")
+SAID = 227
+"""Bytes of the first error that an image tells."""
 WORDS_A_LINE = 6
 
 
-def image_of(compiled: Compiled, guid: str) -> bytes:
-    """Return the image of tables; ``guid``: that of the modelDescription.xml they belong to, at most 39 characters."""
+def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) -> bytes:
+    """Return the image of tables.
+
+    ``guid``: that of the modelDescription.xml they belong to, at most 39 characters; ``findings``: what there was to
+    say about their lists: with errors among them ``reload`` refuses the image, as it refuses lists (semantics §2).
+    """
+    errors = [finding for finding in findings if finding.severity is Severity.ERROR]
+    # Not the folder: an FMU is the same wherever it is built.
+    first = "".join(str(replace(error, file=Path(error.file).name)) for error in errors[:1])
+    said = first.encode()[:SAID].decode(errors="ignore").encode()
     tables, pool = compiled
     axes = tables.axis[: tables.axis_count]
     volumetrics = tables.volumetric[: tables.volumetrics]
@@ -25,7 +39,7 @@ def image_of(compiled: Compiled, guid: str) -> bytes:
     body += b"".join(_bytes_of(volumetric) for volumetric in volumetrics)
     body += struct.pack(f"<{len(pool)}d", *pool)
     before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(pool))
-    checked = HEADER_AFTER_CHECK.pack(guid.encode().ljust(40, b"\0")[:40], tables.cycle_time) + body
+    checked = HEADER_AFTER_CHECK.pack(guid.encode()[:40], tables.cycle_time, len(errors), said) + body
     return before + struct.pack("<I", zlib.crc32(checked)) + checked
 
 

@@ -42,7 +42,7 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
         return "it is truncated";
     }
     memcpy(&header, data, sizeof header);
-    if (memcmp(header.magic, "AXCOMPT1", sizeof header.magic) != 0) {
+    if (memcmp(header.magic, "AXCOMPT2", sizeof header.magic) != 0) {
         return "it is no image of axcomp's tables";
     }
     if (header.layout != AXCOMP_LAYOUT) {
@@ -57,6 +57,9 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
     }
     if (header.guid[GUID_LENGTH - 1] != 0) {
         return "its guid is too long";
+    }
+    if (header.said[SAID_LENGTH - 1] != 0) {
+        return "the first error of its lists is too long";
     }
 
     Tables *tables = &lists->tables;
@@ -76,5 +79,7 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
     lists->numbers = (int32_t)header.numbers;
     lists->identity = header.check;
     memcpy(lists->guid, header.guid, sizeof lists->guid);
+    lists->found = header.errors;
+    memcpy(lists->said, header.said, sizeof lists->said);
     return axcomp_tables_fit(tables, lists->pool, lists->numbers) ? NULL : "its tables contradict themselves";
 }

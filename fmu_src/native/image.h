@@ -1,6 +1,6 @@
 /* Tables as an image: what the table compiler made, as a file in resources/ or as an array in the sources.
  *
- * Header (64 bytes), AxisTable[axes], VolumetricTable[volumetrics], double[numbers]; little-endian, as the compilers of
+ * Header (304 bytes), AxisTable[axes], VolumetricTable[volumetrics], double[numbers]; little-endian, as the compilers of
  * all supported platforms lay the records out: there is no pointer in them. Nothing of an image is used before all of it has been checked. */
 #ifndef AXCOMP_IMAGE_H
 #define AXCOMP_IMAGE_H
@@ -15,10 +15,10 @@
 extern "C" {
 #endif
 
-enum { GUID_LENGTH = 40 };
+enum { GUID_LENGTH = 40, SAID_LENGTH = 228 };
 
 typedef struct {
-    char magic[8];          /* "AXCOMPT1" */
+    char magic[8];          /* "AXCOMPT2" */
     uint32_t layout;        /* of the records: AXCOMP_LAYOUT in layout.h */
     uint16_t axes;
     uint16_t volumetrics;
@@ -26,6 +26,8 @@ typedef struct {
     uint32_t check;         /* CRC-32 of everything behind it */
     char guid[GUID_LENGTH]; /* of the modelDescription.xml that belongs to it; 0 to its end */
     double cycle_time;      /* s */
+    uint32_t errors;        /* that were found in the lists: `reload` refuses them then */
+    char said[SAID_LENGTH]; /* the first of them; 0 to its end */
 } ImageHeader;
 
 /* Tables in memory. They stay until the instance is freed: a saved state may come back to them. */
@@ -34,6 +36,8 @@ typedef struct Lists {
     uint32_t identity;  /* equal for equal tables */
     double cycle_time;   /* s; that of the tables may be set by the host */
     char guid[GUID_LENGTH];
+    uint32_t found;        /* errors in the lists these were made from */
+    char said[SAID_LENGTH]; /* the first of them */
     int32_t errors[AXES];  /* of an axis that keeps its old tables when these are taken: why; else 0 */
     double *pool;          /* that the tables point into; owned */
     int32_t numbers;       /* in the pool */

@@ -137,6 +137,11 @@ static bool fit_update(const Instance *instance, Lists *lists)
                    "reload: the new lists have other axes or compensations than the ones in force");
         return false;
     }
+    if (lists->found > 0) {
+        axcomp_say(instance, fmi2Warning, "reload: the new lists are refused: errors in them: %u, the first: %s",
+                   (unsigned)lists->found, lists->said);
+        return false;
+    }
     uint32_t mixed = axcomp_crc32(lists->identity, &now->identity, sizeof now->identity);
     for (int i = 0; i < now->tables.axis_count; i++) {
         const AxisTable *old = &now->tables.axis[i];

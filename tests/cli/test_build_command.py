@@ -115,6 +115,20 @@ def test_an_image_is_written_with_its_findings(lists: Path, tmp_path: Path, caps
     assert (tmp_path / "new.bin").read_bytes().startswith(MAGIC)
 
 
+def test_the_exit_status_of_an_image_is_the_number_of_errors_in_the_lists(lists: Path, tmp_path: Path) -> None:
+    table = lists / "achskw1.lis"
+    words = ["kw.ssfk.table[0].pos", "kw.ssfk.table[1].pos"]
+    rows = [
+        f"{line.split()[0]} nothing" if line.startswith(tuple(words)) else line
+        for line in table.read_text().splitlines()
+    ]
+    table.write_text("\n".join(rows))
+    options = ["build", "--machine", str(lists)]
+    assert main([*options, "--image", str(tmp_path / "new.bin")]) == 2
+    assert (tmp_path / "new.bin").is_file()
+    assert main([*options, "--output", str(tmp_path), "--runtime", "python"]) == 0
+
+
 def test_without_a_compiler_the_other_runtime_is_named(
     lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -62,6 +62,23 @@ def coming_in(fmu: Path, path: str) -> list[float]:
         return [row["X.leadscrew.correction"] for row in outputs]
 
 
+def test_an_image_of_lists_with_errors_is_refused_as_the_lists_are_by_the_other_runtime(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    write_machine(three_axes(3.0), tmp_path / "lists")
+    table = next(path for path in (tmp_path / "lists").glob("achskw*.lis") if "kw.ssfk.table[1]" in path.read_text())
+    lines = table.read_text().splitlines(keepends=True)
+    at = next(number for number, line in enumerate(lines) if line.startswith("kw.ssfk.table[1]"))
+    lines[at] = f"{lines[at].split()[0]} nothing\n"
+    table.write_text("".join(lines))
+    written = write_image(tmp_path / "lists", tmp_path / "new.bin")
+    error = f"{table.name}:{at + 1}: error AXC-ZEROED: kw.ssfk.table[1].pos = nothing is no number"
+    corrections, errors, texts = in_child(reloaded, native_fmu, str(written.path))
+    assert (corrections, errors) == ([-0.03, -0.03], [REFUSED] * 3)
+    assert len(texts) == 1
+    assert f"the new lists are refused: errors in them: 1, the first: {error}" in texts[0]
+
+
 def on_the_move(fmu: Path, path: Path, rows: list[dict[str, Any]], at: int, cycle_time: float) -> list[dict[str, Any]]:
     with Host(fmu, parameters={"cycle_time": cycle_time}) as host:
         outputs = [host.step(row, cycle_time) for row in rows[:at]]
