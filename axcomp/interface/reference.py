@@ -1,4 +1,4 @@
-"""The FMU's variables as documentation; ``python -m axcomp.interface.reference`` writes page and README section."""
+"""The FMU's variables as documentation; ``python -m axcomp.interface`` writes page and README section."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ README_BEGIN, README_END = "<!-- variables -->", "<!-- end of variables -->"
 HEAD = """\
 # Variables of axcomp.fmu
 
-Written by `python -m axcomp.interface.reference` from `axcomp/interface/variables.py`.
+Written by `python -m axcomp.interface` from `axcomp/interface/variables.py`.
 
 `NAME` is the name of an axis (`kopf.log_achs_name`, else `axis<number>`) with `_` for what an identifier cannot hold.
 Only what is configured appears. Units are those of the axis: mm or deg, mm/s or deg/s, mm/s2 or deg/s2, each defined by
@@ -61,7 +61,8 @@ makes one whose libraries start Python. Variables, value references and results 
 | --- | --- | --- |
 | Needs in the host | nothing | Python 3.11 or later in its process, as FMPy has |
 | `update_path` | an image, made by `axcomp build --image FILE`, which shows the findings; empty: its \
-own one; lists with errors are refused | a start-up list, its folder or a single list; empty: those in `resources/`; lists with errors are refused |
+own one; lists with errors are refused | a start-up list, its folder or a single list; empty: those in \
+`resources/`; lists with errors are refused |
 | Changed lists in `resources/` | are not read: they travel along; build again | act in the next instance; a new \
 compensation acts, but its variables are not there |
 | Serialized state after `reload` | comes back in instances that have read the same images | \
@@ -165,8 +166,3 @@ def _start(declaration: Declaration) -> str:
     if declaration.path.startswith("compensation."):
         return "as listed"
     return str(declaration.start).lower() if isinstance(declaration.start, bool) else repr(declaration.start)
-
-
-if __name__ == "__main__":
-    PAGE.write_text(reference_page(), encoding="utf-8")
-    README.write_text(readme_with_section(README.read_text(encoding="utf-8")), encoding="utf-8")

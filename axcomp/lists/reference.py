@@ -1,4 +1,4 @@
-"""The page ``docs/lists.md``, made from the catalogue: ``python -m axcomp.lists.reference`` writes it again."""
+"""The page ``docs/lists.md``, made from the catalogue: ``python -m axcomp.lists`` writes it again."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def page() -> str:
 def _lines() -> Iterator[str]:
     yield "# List parameters"
     yield ""
-    yield "Made by `python -m axcomp.lists.reference`; the catalogue in `axcomp/lists` is the source."
+    yield "Made by `python -m axcomp.lists`; the catalogue in `axcomp/lists` is the source."
     yield ""
     yield "Names are case-insensitive. MIN and MAX are those of the data type; a round bracket excludes the bound."
     yield "Values that are no counts may have decimals, whatever their type. Where both manuals of the compensation"
@@ -137,7 +137,3 @@ def _notes(parameters: tuple[Parameter, ...]) -> Iterator[str]:
 
 def _listed(names: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in names)
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8", newline="\n")

@@ -15,7 +15,7 @@ Everything else that C would do otherwise, or not at all, is refused with file, 
 
 from __future__ import annotations
 
-from .__main__ import main
+from .command import main
 from .emit import Translation, translate
 from .subset import Refusal, TranslationError
 
