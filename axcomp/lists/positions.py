@@ -107,6 +107,9 @@ def with_value(line: str, entry: Entry, parameter: Parameter, value: str, commen
         return before + value
     if not rest.strip():
         return before + value + rest
+    if parameter.type is DataType.STRING and not rest.lstrip().startswith("(") and not value.startswith('"'):
+        # Only ( opens a comment after a string without quotes.
+        value = f'"{value}"'
     between = "" if rest[0].isspace() or rest[0] == "(" else " "
     return before + value.ljust(len(old)) + between + rest
 

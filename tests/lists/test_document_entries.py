@@ -345,3 +345,10 @@ def test_only_what_was_changed_is_parsed_again(folder: Path, monkeypatch: pytest
 def test_findings_know_the_column_of_their_entry(folder: Path) -> None:
     found = {(f.code, f.line): f.column for f in read_machine(folder).findings}
     assert found == {("AXC-PATH", 2): 1, ("AXC-PATH", 4): 1, ("AXC-MISSING", 5): 1, ("AXC-ZEROED", 6): 3}
+
+
+def test_a_string_that_loses_its_quotes_does_not_swallow_the_comment_behind_it() -> None:
+    document = Document("a.lis", b'kopf.log_achs_name "a b"   # why\n', ListKind.COMPENSATION)
+    document.set("kopf.log_achs_name", "A")
+    assert document.to_bytes() == b'kopf.log_achs_name "A"     # why\n'
+    assert document.values.value("kopf.log_achs_name") == "A"
