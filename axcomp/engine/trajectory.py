@@ -125,15 +125,16 @@ LIMITS = ("velocity", "acceleration", "jerk")
 def completed(columns: Columns, known: set[str], cycle_time: float) -> Columns:
     """Return the inputs with what follows from the setpoints, where a machine knows it and it is not given.
 
-    Velocity and acceleration by central differences, the actual position equal to the setpoint.
+    Velocity and acceleration by differences over a cycle (semantics §4), the actual position equal to the setpoint.
     """
     found = dict(columns)
     for name, position in columns.items():
         prefix, _, last = name.rpartition(".")
         if last != _SETPOINT:
             continue
-        derived = Setpoints.through(np.asarray(position, dtype=np.float64), cycle_time)
-        for kind, values in ((_VELOCITY, derived.velocity), (_ACCELERATION, derived.acceleration), (_ACTUAL, position)):
+        velocity = np.diff(np.asarray(position, dtype=np.float64), prepend=position[0]) / cycle_time
+        acceleration = np.diff(velocity, prepend=0.0) / cycle_time
+        for kind, values in ((_VELOCITY, velocity), (_ACCELERATION, acceleration), (_ACTUAL, position)):
             if f"{prefix}.{kind}" in known:
                 found.setdefault(f"{prefix}.{kind}", values)
     return found

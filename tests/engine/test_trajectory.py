@@ -84,8 +84,9 @@ def test_what_follows_from_setpoints_is_added_where_the_machine_knows_it() -> No
     position = 0.5 * 100.0 * (np.arange(100) * DT) ** 2
     known = {"X.setpoint", "X.velocity", "X.acceleration", "X.actual_position"}
     found = completed({"X.setpoint": position}, known, DT)
-    assert found["X.velocity"][1:-1] == pytest.approx(100.0 * np.arange(1, 99) * DT)
-    assert found["X.acceleration"][1:-1] == pytest.approx(np.full(98, 100.0))
+    # Over the cycle that ends there (semantics §4): the mean velocity of uniform acceleration is that of its middle.
+    assert found["X.velocity"] == pytest.approx([0.0, *(100.0 * (np.arange(1, 100) - 0.5) * DT)])
+    assert found["X.acceleration"][2:] == pytest.approx(np.full(98, 100.0))
     assert np.array_equal(found["X.actual_position"], position)
     given = {"X.setpoint": position, "X.velocity": np.zeros(100)}
     assert completed(given, {"X.velocity"}, DT).keys() == given.keys()
