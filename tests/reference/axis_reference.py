@@ -1,0 +1,331 @@
+"""A machine's axis compensations a second time, cycle by cycle: from the words of the manuals and of the conventions.
+
+``Reference(machine).cycle(rows)`` takes what every axis gets in a cycle and returns what it must put out. It knows the
+description of a machine, and nothing of the kernel: an independent second opinion, written for reading.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from reference_friction import FrictionReference
+from reference_tables import (
+    cross_correction,
+    crosstalk_correction,
+    curve_correction,
+    leadscrew_errors,
+    plane_correction,
+)
+
+from axcomp.kinds import CrosstalkCurve
+from axcomp.model.machine import Axis, Machine
+
+STANDSTILL = 1e-9
+"""mm or ° a cycle below which an axis stands."""
+
+BEFORE_LEADSCREW = ("cross", "plane", "crosstalk", "temperature")
+ON_SETPOINT = (*BEFORE_LEADSCREW, "leadscrew", "backlash")
+ALL_KINDS = (*ON_SETPOINT, "friction")
+WAITS_FOR_STANDSTILL = ("cross", "plane", "crosstalk")
+
+
+@dataclass
+class Row:
+    """What an axis gets in a cycle; names as those of the FMU."""
+
+    setpoint: float = 0.0
+    velocity: float = 0.0
+    acceleration: float = 0.0
+    actual_position: float = 0.0
+    referenced: bool = True
+    fault: bool = False
+    no_move: bool = False
+    released: bool = False
+    enable: dict[str, bool] = field(default_factory=dict)
+    offset: float = 0.0
+    coefficient: float = 0.0
+    ahead_known: bool = False
+    velocity_ahead: tuple[float, ...] = ()
+
+
+@dataclass
+class Result:
+    """What an axis puts out in a cycle."""
+
+    corrected_setpoint: float
+    display_position: float
+    correction: float
+    setpoint_shift: float
+    contributions: dict[str, float]
+    active: dict[str, bool]
+
+
+def soft(step: int, length: int) -> float:
+    """Return sin²(π/2 · step/length)."""
+    return math.sin(0.5 * math.pi * step / length) ** 2
+
+
+def short_way(change: float, axis: Axis) -> float:
+    """Return a change of position, the short way round where the axis counts modulo."""
+    return change if axis.modulo is None else math.remainder(change, axis.modulo.length)
+
+
+class Direction:
+    """The last way a position went; changes sum up until they are a motion."""
+
+    def __init__(self, axis: Axis) -> None:
+        self.axis, self.place, self.sign = axis, math.nan, 0
+
+    def follow(self, position: float) -> int:
+        """Return the sign of the motion to a position, 0 as long as it is none."""
+        if math.isnan(self.place):
+            self.place = position
+        change = short_way(position - self.place, self.axis)
+        if abs(change) < STANDSTILL:
+            return 0
+        self.place, self.sign = position, 1 if change > 0 else -1
+        return self.sign
+
+
+class Walk:
+    """A weight that goes one step a cycle towards 0 or 1."""
+
+    def __init__(self, length: int, step: int | None = None) -> None:
+        self.length = max(length, 1)
+        self.step = self.length if step is None else step
+
+    def towards(self, up: bool) -> float:
+        """Go one step and return the weight."""
+        self.step = min(max(self.step + (1 if up else -1), 0), self.length)
+        return self.weight
+
+    @property
+    def weight(self) -> float:
+        """Return the weight at the present step."""
+        return soft(self.step, self.length)
+
+    def stretch(self, length: int) -> None:
+        """Take another length at the nearest step of the same share."""
+        length = max(length, 1)
+        self.step, self.length = math.floor(self.step * length / self.length + 0.5), length
+
+
+class Switch:
+    """Whether a compensation is on: commands, standstill, references, manual activation."""
+
+    def __init__(self, kind: str, compensation: Any) -> None:
+        self.kind = kind
+        self.manual = compensation.manual_activation
+        self.walk = Walk(compensation.n_cycles, 0)
+        self.asked = self.granted = self.enabled = self.no_move = False
+        self.begun = False
+
+    def weigh(self, enable: bool, taken_off: bool, conditions: bool, stands: bool, no_move: bool) -> tuple[float, float]:
+        """Return the weight in this cycle, and what part of the value NO_MOVE keeps in the setpoint.
+
+        ``taken_off``: reset, program end, or the axis is given back.
+        """
+        before = self.asked
+        if not self.manual:
+            self.asked = enable
+        elif taken_off or not enable:
+            self.asked = False
+        elif not self.enabled and conditions:
+            self.asked = True
+        self.enabled = enable
+        if self.asked != before:
+            self.no_move = no_move
+        if not self.begun:
+            self.begun, self.granted = True, self.asked
+            self.walk.step = self.walk.length if self.granted and conditions else 0
+            return self.walk.weight, 0.0
+        granted_before = self.granted
+        if stands or not conditions or self.kind not in WAITS_FOR_STANDSTILL:
+            self.granted = self.asked
+        if self.granted != granted_before and self.no_move and conditions:
+            old = self.walk.weight
+            self.walk.step = self.walk.length if self.granted else 0
+            return self.walk.weight, old - self.walk.weight
+        return self.walk.towards(self.granted and conditions), 0.0
+
+
+class Shift:
+    """What NO_MOVE keeps in the setpoint; two parts: before the leadscrew's input and behind it."""
+
+    def __init__(self) -> None:
+        self.waiting, self.leaving, self.walk = [0.0, 0.0], [0.0, 0.0], Walk(1, 0)
+
+    def cycle(self, moves: bool, length: int) -> None:
+        """Release what waits with a motion."""
+        if self.walk.step == 0:
+            self.leaving = [0.0, 0.0]
+            if moves and any(self.waiting):
+                self.leaving, self.waiting, self.walk = self.waiting, [0.0, 0.0], Walk(length)
+        self.walk.towards(False)
+
+    def part(self, place: int) -> float:
+        """Return one part."""
+        return self.waiting[place] + self.walk.weight * self.leaving[place]
+
+
+class TemperatureLine:
+    """Offset and coefficient, whose changes run out by sin²."""
+
+    def __init__(self) -> None:
+        self.given: tuple[float, float] | None = None
+        self.rest, self.walk = 0.0, Walk(1, 0)
+
+    def value(self, row: Row, position: float, n_cycles: int) -> float:
+        """Return Δs in this cycle."""
+        new = (row.offset, row.coefficient)
+        way = row.setpoint - position
+        if self.given is not None and new != self.given:
+            acting = self.given[0] + self.given[1] * way + self.rest * self.walk.weight
+            self.rest, self.walk = acting - (new[0] + new[1] * way), Walk(n_cycles)
+        self.given = new
+        return new[0] + new[1] * way + self.rest * self.walk.towards(False)
+
+
+class AxisReference:
+    """One axis with what it remembers."""
+
+    def __init__(self, axis: Axis, machine: Machine, cycle_time: float, derive: bool) -> None:
+        self.axis, self.machine, self.cycle_time, self.derive = axis, machine, cycle_time, derive
+        self.compensations: dict[str, Any] = {one.kind: one for one in axis.compensations}
+        self.switches = {kind: Switch(kind, one) for kind, one in self.compensations.items()}
+        self.row = Row()
+        self.motion, self.screw_motion = Direction(axis), Direction(axis)
+        self.direction, self.stands = 0, True
+        self.screw_walk, self.backlash_walk = Walk(axis.backlash_cycles), Walk(axis.backlash_cycles, 0)
+        self.temperature, self.shift = TemperatureLine(), Shift()
+        self.friction = FrictionReference(axis, cycle_time)
+        self.was_released = False
+        self.last_setpoint: float | None = None
+        self.last_velocity: float | None = None
+
+    def accept(self, row: Row) -> None:
+        """Take the inputs and decide whether the axis stands and which way it goes."""
+        self.row = row
+        if self.derive:
+            self._derive(row)
+        changed = self.motion.follow(row.setpoint)
+        velocity = 0 if abs(row.velocity) * self.cycle_time < STANDSTILL else int(math.copysign(1, row.velocity))
+        self.stands = not changed and not velocity
+        self.direction = velocity or changed or self.direction
+
+    def _derive(self, row: Row) -> None:
+        if self.last_setpoint is None:
+            row.velocity = row.acceleration = 0.0
+        else:
+            row.velocity = short_way(row.setpoint - self.last_setpoint, self.axis) / self.cycle_time
+            row.acceleration = 0.0
+            if self.last_velocity is not None:
+                row.acceleration = (row.velocity - self.last_velocity) / self.cycle_time
+            self.last_velocity = row.velocity
+        self.last_setpoint = row.setpoint
+
+    def needs(self, kind: str) -> list[int]:
+        """Return the numbers of the axes that must be referenced."""
+        one = self.compensations[kind]
+        if kind == "cross":
+            return [one.master]
+        if kind == "plane":
+            return [one.master1, one.master2, self.axis.number]
+        if kind == "crosstalk":
+            return self._adaptation()
+        return [self.axis.number] if kind in ("leadscrew", "temperature") else []
+
+    def _adaptation(self) -> list[int]:
+        one = self.compensations["crosstalk"]
+        if isinstance(one, CrosstalkCurve):
+            return []
+        return [one.adaptation1, one.adaptation2][: one.mode - 1]
+
+    def cycle(self, axes: dict[int, AxisReference], reset: bool, program_end: bool) -> Result:
+        """Return what comes out; every axis has accepted its inputs."""
+        row = self.row
+        taken_off = reset or program_end or (row.released and not self.was_released)
+        self.was_released = row.released
+        weights = {}
+        for kind, switch in self.switches.items():
+            conditions = all(axes[number].row.referenced for number in self.needs(kind))
+            weights[kind] = switch.weigh(row.enable[kind], taken_off, conditions, self.stands, row.no_move)
+        longest = max([self.axis.backlash_cycles, *(one.n_cycles for one in self.compensations.values())])
+        self.shift.cycle(not self.stands, longest)
+        found: dict[str, float] = {}
+
+        def add(kind: str, value: float, place: int) -> None:
+            weight, kept = weights[kind]
+            found[kind] = weight * value
+            self.shift.waiting[place] += kept * value
+
+        for kind in BEFORE_LEADSCREW:
+            if kind in weights:
+                add(kind, self._value(kind, axes), 0)
+        input_of_screw = row.setpoint + sum(found.values()) + self.shift.part(0)
+        if "leadscrew" in weights:
+            add("leadscrew", self._leadscrew(input_of_screw), 1)
+        if "backlash" in weights:
+            add("backlash", self._backlash(), 1)
+        correction = sum(found.values())
+        shift = self.shift.part(0) + self.shift.part(1)
+        if "friction" in weights:
+            found["friction"] = weights["friction"][0] * self.friction.current(row)
+        return Result(
+            row.setpoint + correction + shift,
+            row.actual_position - (correction + shift),
+            correction,
+            shift,
+            found,
+            {kind: switch.walk.step > 0 for kind, switch in self.switches.items()},
+        )
+
+    def _value(self, kind: str, axes: dict[int, AxisReference]) -> float:
+        one = self.compensations[kind]
+        if kind == "cross":
+            master = axes[one.master]
+            return cross_correction(one, master.axis, master.row.setpoint)
+        if kind == "plane":
+            first, second = axes[one.master1], axes[one.master2]
+            return plane_correction(one, (first.axis, second.axis), (first.row.setpoint, second.row.setpoint))
+        if kind == "temperature":
+            return self.temperature.value(self.row, one.position, one.n_cycles)
+        master = axes[one.master]
+        if isinstance(one, CrosstalkCurve):
+            return curve_correction(one, master.row.acceleration)
+        adaptation = [axes[number] for number in self._adaptation()]
+        return crosstalk_correction(
+            one,
+            [other.axis for other in adaptation],
+            [other.row.setpoint for other in adaptation],
+            master.row.acceleration,
+            master.direction or 1,
+        )
+
+    def _leadscrew(self, position: float) -> float:
+        screw = self.compensations["leadscrew"]
+        if screw.without_other_compensations:
+            position = self.row.setpoint
+        self.screw_motion.follow(position)
+        positive, negative = leadscrew_errors(screw, self.axis, position)
+        return -(negative + self.screw_walk.towards(self.screw_motion.sign >= 0) * (positive - negative))
+
+    def _backlash(self) -> float:
+        backlash = self.compensations["backlash"]
+        acts, amount = (self.direction < 0, -backlash.amount) if backlash.mode == 1 else (self.direction > 0, backlash.amount)
+        return self.backlash_walk.towards(acts) * amount
+
+
+class Reference:
+    """A whole machine."""
+
+    def __init__(self, machine: Machine, cycle_time: float, derive: bool = False) -> None:
+        self.axes = {axis.number: AxisReference(axis, machine, cycle_time, derive) for axis in machine.axes}
+
+    def cycle(self, rows: list[Row], reset: bool, program_end: bool) -> list[Result]:
+        """Return what every axis puts out, in the order of the machine."""
+        for axis, row in zip(self.axes.values(), rows, strict=True):
+            axis.accept(row)
+        return [axis.cycle(self.axes, reset, program_end) for axis in self.axes.values()]
