@@ -109,11 +109,17 @@ static double ramp(int32_t step, int32_t cycles)
     return s * s;
 }
 
+/* Tell whether a command to switch on is refused: a manual one, before its references or while it is released. */
+static bool is_refused(const SwitchTable *table, bool ready, bool released)
+{
+    return table->manual && (released || !ready);
+}
+
 /* Set the state at the start of a simulation: what is on begins at full weight. */
 static void begin_switch(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released)
 {
     state->enable = enable;
-    state->command = enable && !(table->manual && released);
+    state->command = enable && !is_refused(table, ready, released);
     state->granted = state->command;
     state->no_move = false;
     state->step = state->granted && ready ? table->cycles : 0;
@@ -123,15 +129,18 @@ static void begin_switch(const SwitchTable *table, SwitchState *state, bool enab
 
 /* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
  *
- * `released`: reset, program end or release of the axis. `no_move`: the command is to move nothing, whenever it
- * acts.
+ * `ready`: the conditions hold. `released`: reset, program end or release of the axis. `no_move`: the command
+ * is to move nothing, whenever it acts.
  */
-static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool released, bool no_move)
+static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released,
+        bool no_move)
 {
     if (enable != state->enable) {
         state->enable = enable;
-        state->command = enable;
-        state->no_move = no_move;
+        if (!(enable && is_refused(table, ready, released))) {
+            state->command = enable;
+            state->no_move = no_move;
+        }
     }
     if (table->manual && state->command && released) {
         state->command = false;
@@ -1349,7 +1358,7 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
             if (!axis->started) {
                 begin_switch(&table->switching[kind], state, given->enable[kind], ready, released);
             } else {
-                heed_command(&table->switching[kind], state, given->enable[kind], released, given->no_move);
+                heed_command(&table->switching[kind], state, given->enable[kind], ready, released, given->no_move);
                 if (!axis->held) {
                     bool settled = advance_switch(&table->switching[kind], state, ready, moving);
                     axis->settled = axis->settled && settled;
