@@ -127,16 +127,13 @@ class Switch:
 
         ``taken_off``: reset, program end, or the axis is given back.
         """
-        before = self.asked
-        if not self.manual:
-            self.asked = enable
-        elif taken_off or not enable:
-            self.asked = False
-        elif not self.enabled and conditions:
-            self.asked = True
-        self.enabled = enable
-        if self.asked != before:
-            self.no_move = no_move
+        if enable != self.enabled:
+            self.enabled = enable
+            refused = enable and self.manual and (taken_off or not conditions)
+            if not refused:
+                self.asked, self.no_move = enable, no_move
+        if self.manual and self.asked and taken_off:
+            self.asked, self.no_move = False, no_move
         if not self.begun:
             self.begun, self.granted = True, self.asked
             self.walk.step = self.walk.length if self.granted and conditions else 0
@@ -170,22 +167,21 @@ class Shift:
         return self.waiting[place] + self.walk.weight * self.leaving[place]
 
 
-class TemperatureLine:
-    """Offset and coefficient, whose changes run out by sin²."""
+class Rest:
+    """What was absorbed when a value became another one: it runs out by sin², whatever the switch does."""
 
     def __init__(self) -> None:
-        self.given: tuple[float, float] | None = None
-        self.rest, self.walk = 0.0, Walk(1, 0)
+        self.amount, self.walk = 0.0, Walk(1, 0)
 
-    def value(self, row: Row, position: float, n_cycles: int) -> float:
-        """Return Δs in this cycle."""
-        new = (row.offset, row.coefficient)
-        way = row.setpoint - position
-        if self.given is not None and new != self.given:
-            acting = self.given[0] + self.given[1] * way + self.rest * self.walk.weight
-            self.rest, self.walk = acting - (new[0] + new[1] * way), Walk(n_cycles)
-        self.given = new
-        return new[0] + new[1] * way + self.rest * self.walk.towards(False)
+    @property
+    def value(self) -> float:
+        """Return what is left of it."""
+        return self.amount * self.walk.weight
+
+    def absorb(self, difference: float, cycles: int) -> None:
+        """Take up a difference besides what is left."""
+        if difference:
+            self.amount, self.walk = self.value + difference, Walk(cycles)
 
 
 class AxisReference:
@@ -199,11 +195,13 @@ class AxisReference:
         self.motion, self.screw_motion = Direction(axis), Direction(axis)
         self.direction, self.stands = 0, True
         self.screw_walk, self.backlash_walk = Walk(axis.backlash_cycles), Walk(axis.backlash_cycles, 0)
-        self.temperature, self.shift = TemperatureLine(), Shift()
+        self.line: tuple[float, float] | None = None
+        self.rests = {kind: Rest() for kind in ON_SETPOINT}
+        self.shift = Shift()
         self.friction = FrictionReference(axis, cycle_time)
         self.was_released = False
         self.last_setpoint: float | None = None
-        self.last_velocity: float | None = None
+        self.last_velocity = 0.0
 
     def accept(self, row: Row) -> None:
         """Take the inputs and decide whether the axis stands and which way it goes."""
@@ -216,15 +214,12 @@ class AxisReference:
         self.direction = velocity or changed or self.direction
 
     def _derive(self, row: Row) -> None:
+        """Backward difference and second difference; before its first setpoint the axis stood there."""
         if self.last_setpoint is None:
-            row.velocity = row.acceleration = 0.0
-        else:
-            row.velocity = short_way(row.setpoint - self.last_setpoint, self.axis) / self.cycle_time
-            row.acceleration = 0.0
-            if self.last_velocity is not None:
-                row.acceleration = (row.velocity - self.last_velocity) / self.cycle_time
-            self.last_velocity = row.velocity
-        self.last_setpoint = row.setpoint
+            self.last_setpoint = row.setpoint
+        row.velocity = short_way(row.setpoint - self.last_setpoint, self.axis) / self.cycle_time
+        row.acceleration = (row.velocity - self.last_velocity) / self.cycle_time
+        self.last_setpoint, self.last_velocity = row.setpoint, row.velocity
 
     def needs(self, kind: str) -> list[int]:
         """Return the numbers of the axes that must be referenced."""
@@ -258,10 +253,14 @@ class AxisReference:
 
         def add(kind: str, value: float, place: int) -> None:
             weight, kept = weights[kind]
-            found[kind] = weight * value
+            rest = self.rests[kind]
+            rest.walk.towards(False)
+            found[kind] = weight * value + rest.value
             self.shift.waiting[place] += kept * value
 
         for kind in BEFORE_LEADSCREW:
+            if kind == "temperature" and kind in weights:
+                self._take_line(weights[kind][0])
             if kind in weights:
                 add(kind, self._value(kind, axes), 0)
         input_of_screw = row.setpoint + sum(found.values()) + self.shift.part(0)
@@ -291,7 +290,7 @@ class AxisReference:
             first, second = axes[one.master1], axes[one.master2]
             return plane_correction(one, (first.axis, second.axis), (first.row.setpoint, second.row.setpoint))
         if kind == "temperature":
-            return self.temperature.value(self.row, one.position, one.n_cycles)
+            return self._growth((self.row.offset, self.row.coefficient))
         master = axes[one.master]
         if isinstance(one, CrosstalkCurve):
             return curve_correction(one, master.row.acceleration)
@@ -303,6 +302,17 @@ class AxisReference:
             master.row.acceleration,
             master.direction or 1,
         )
+
+    def _growth(self, line: tuple[float, float]) -> float:
+        return line[0] + line[1] * (self.row.setpoint - self.compensations["temperature"].position)
+
+    def _take_line(self, weight: float) -> None:
+        """Absorb the difference that another offset or coefficient makes."""
+        line = (self.row.offset, self.row.coefficient)
+        if self.line is not None and line != self.line:
+            difference = weight * (self._growth(self.line) - self._growth(line))
+            self.rests["temperature"].absorb(difference, self.compensations["temperature"].n_cycles)
+        self.line = line
 
     def _leadscrew(self, position: float) -> float:
         screw = self.compensations["leadscrew"]
