@@ -28,6 +28,7 @@ STANDSTILL = 1e-9
 BEFORE_LEADSCREW = ("cross", "plane", "crosstalk", "temperature")
 ON_SETPOINT = (*BEFORE_LEADSCREW, "leadscrew", "backlash")
 ALL_KINDS = (*ON_SETPOINT, "friction")
+UPDATE_ERRORS = {"leadscrew": 110638, "cross": 110639, "plane": 110640, "friction": 110641}
 WAITS_FOR_STANDSTILL = ("cross", "plane", "crosstalk")
 
 
@@ -60,6 +61,7 @@ class Result:
     setpoint_shift: float
     contributions: dict[str, float]
     active: dict[str, bool]
+    error: int
 
 
 def soft(step: int, length: int) -> float:
@@ -111,6 +113,15 @@ class Walk:
         length = max(length, 1)
         self.step, self.length = math.floor(self.step * length / self.length + 0.5), length
 
+    def stretch_what_runs_out(self, length: int) -> float:
+        """Take another length without coming to the end by it; return by what the amount must be multiplied."""
+        if self.step == 0:
+            return 1.0
+        before = self.weight
+        self.stretch(length)
+        self.step = max(self.step, 1)
+        return before / self.weight
+
 
 class Switch:
     """Whether a compensation is on: commands, standstill, references, manual activation."""
@@ -147,6 +158,14 @@ class Switch:
             return self.walk.weight, old - self.walk.weight
         return self.walk.towards(self.granted and conditions), 0.0
 
+    def drop(self) -> None:
+        """Be off for want of a table."""
+        self.walk.step = 0
+
+    def come_back(self, enable: bool) -> None:
+        """Have a table again: what is automatic needs neither command nor standstill."""
+        self.enabled = self.asked = self.granted = enable
+
 
 class Shift:
     """What NO_MOVE keeps in the setpoint; two parts: before the leadscrew's input and behind it."""
@@ -161,6 +180,11 @@ class Shift:
             if moves and any(self.waiting):
                 self.leaving, self.waiting, self.walk = self.waiting, [0.0, 0.0], Walk(length)
         self.walk.towards(False)
+
+    def stretch(self, length: int) -> None:
+        """Go on over another length."""
+        factor = self.walk.stretch_what_runs_out(length)
+        self.leaving = [factor * amount for amount in self.leaving]
 
     def part(self, place: int) -> float:
         """Return one part."""
@@ -177,6 +201,10 @@ class Rest:
     def value(self) -> float:
         """Return what is left of it."""
         return self.amount * self.walk.weight
+
+    def stretch(self, cycles: int) -> None:
+        """Go on over another length."""
+        self.amount *= self.walk.stretch_what_runs_out(cycles)
 
     def absorb(self, difference: float, cycles: int) -> None:
         """Take up a difference besides what is left."""
@@ -200,6 +228,9 @@ class AxisReference:
         self.shift = Shift()
         self.friction = FrictionReference(axis, cycle_time)
         self.was_released = False
+        self.error = 0
+        self.screw_input = 0.0
+        self.declared = dict(self.compensations)
         self.last_setpoint: float | None = None
         self.last_velocity = 0.0
 
@@ -244,34 +275,33 @@ class AxisReference:
         taken_off = reset or program_end or (row.released and not self.was_released)
         self.was_released = row.released
         weights = {}
-        for kind, switch in self.switches.items():
+        for kind in self.compensations:
+            switch = self.switches[kind]
             conditions = all(axes[number].row.referenced for number in self.needs(kind))
             weights[kind] = switch.weigh(row.enable[kind], taken_off, conditions, self.stands, row.no_move)
-        longest = max([self.axis.backlash_cycles, *(one.n_cycles for one in self.compensations.values())])
-        self.shift.cycle(not self.stands, longest)
+        self.shift.cycle(not self.stands, self.longest)
         found: dict[str, float] = {}
-
-        def add(kind: str, value: float, place: int) -> None:
-            weight, kept = weights[kind]
+        for kind in ON_SETPOINT:
+            if kind not in self.switches:
+                continue
+            if kind == "leadscrew":
+                self.screw_input = row.setpoint + sum(found.values()) + self.shift.part(0)
             rest = self.rests[kind]
+            if kind not in weights:
+                rest.walk.towards(False)
+                found[kind] = rest.value
+                continue
+            weight, kept = weights[kind]
+            self._step(kind, weight)
+            value = self._value(kind, axes)
             rest.walk.towards(False)
             found[kind] = weight * value + rest.value
-            self.shift.waiting[place] += kept * value
-
-        for kind in BEFORE_LEADSCREW:
-            if kind == "temperature" and kind in weights:
-                self._take_line(weights[kind][0])
-            if kind in weights:
-                add(kind, self._value(kind, axes), 0)
-        input_of_screw = row.setpoint + sum(found.values()) + self.shift.part(0)
-        if "leadscrew" in weights:
-            add("leadscrew", self._leadscrew(input_of_screw), 1)
-        if "backlash" in weights:
-            add("backlash", self._backlash(), 1)
+            self.shift.waiting[0 if kind in BEFORE_LEADSCREW else 1] += kept * value
         correction = sum(found.values())
         shift = self.shift.part(0) + self.shift.part(1)
         if "friction" in weights:
             found["friction"] = weights["friction"][0] * self.friction.current(row)
+        self.error = 0 if reset else self.error
         return Result(
             row.setpoint + correction + shift,
             row.actual_position - (correction + shift),
@@ -279,6 +309,7 @@ class AxisReference:
             shift,
             found,
             {kind: switch.walk.step > 0 for kind, switch in self.switches.items()},
+            self.error,
         )
 
     def _value(self, kind: str, axes: dict[int, AxisReference]) -> float:
@@ -290,7 +321,12 @@ class AxisReference:
             first, second = axes[one.master1], axes[one.master2]
             return plane_correction(one, (first.axis, second.axis), (first.row.setpoint, second.row.setpoint))
         if kind == "temperature":
-            return self._growth((self.row.offset, self.row.coefficient))
+            assert self.line is not None
+            return self._growth(self.line)
+        if kind == "leadscrew":
+            return self._leadscrew()
+        if kind == "backlash":
+            return (-1 if one.mode == 1 else 1) * one.amount * self.backlash_walk.weight
         master = axes[one.master]
         if isinstance(one, CrosstalkCurve):
             return curve_correction(one, master.row.acceleration)
@@ -314,18 +350,69 @@ class AxisReference:
             self.rests["temperature"].absorb(difference, self.compensations["temperature"].n_cycles)
         self.line = line
 
-    def _leadscrew(self, position: float) -> float:
-        screw = self.compensations["leadscrew"]
-        if screw.without_other_compensations:
-            position = self.row.setpoint
-        self.screw_motion.follow(position)
-        positive, negative = leadscrew_errors(screw, self.axis, position)
-        return -(negative + self.screw_walk.towards(self.screw_motion.sign >= 0) * (positive - negative))
+    def _step(self, kind: str, weight: float) -> None:
+        """Go one cycle on with what a value remembers."""
+        one = self.compensations[kind]
+        if kind == "temperature":
+            self._take_line(weight)
+        elif kind == "leadscrew":
+            self.screw_motion.follow(self._screw_position())
+            self.screw_walk.towards(self.screw_motion.sign >= 0)
+        elif kind == "backlash":
+            self.backlash_walk.towards(self.direction == (-1 if one.mode == 1 else 1))
 
-    def _backlash(self) -> float:
-        backlash = self.compensations["backlash"]
-        acts, amount = (self.direction < 0, -backlash.amount) if backlash.mode == 1 else (self.direction > 0, backlash.amount)
-        return self.backlash_walk.towards(acts) * amount
+    def _screw_position(self) -> float:
+        alone = self.compensations["leadscrew"].without_other_compensations
+        return self.row.setpoint if alone else self.screw_input
+
+    def _leadscrew(self) -> float:
+        screw = self.compensations["leadscrew"]
+        positive, negative = leadscrew_errors(screw, self.axis, self._screw_position())
+        return -(negative + self.screw_walk.weight * (positive - negative))
+
+    @property
+    def longest(self) -> int:
+        """Return over how many cycles a shift is released."""
+        return max([self.axis.backlash_cycles, *(one.n_cycles for one in self.compensations.values())])
+
+    def blending(self, kind: str) -> int:
+        """Return over how many cycles new values come in."""
+        if kind in ("leadscrew", "backlash"):
+            return self.axis.backlash_cycles
+        return int(self.compensations[kind].n_cycles)
+
+    def update(self, axis: Axis, axes: dict[int, AxisReference]) -> None:
+        """Take new lists, unless they reserve other sizes than were declared at the start."""
+        new: dict[str, Any] = {one.kind: one for one in axis.compensations}
+        for kind, one in new.items():
+            if getattr(one, "max_points", 0) != getattr(self.declared[kind], "max_points", 0):
+                self.error = UPDATE_ERRORS[kind]
+                return
+        self.error = 0
+        before = {}
+        for kind in self.compensations:
+            weight = self.switches[kind].walk.weight
+            before[kind] = (weight, self.blending(kind), self._value(kind, axes) if weight and kind != "friction" else 0.0)
+        had = self.compensations
+        self.axis, self.friction.axis, self.compensations = axis, axis, new
+        self.shift.stretch(self.longest)
+        self.screw_walk.stretch(axis.backlash_cycles)
+        self.backlash_walk.stretch(axis.backlash_cycles)
+        for kind, switch in self.switches.items():
+            weight, cycles, value = before.get(kind, (0.0, 1, 0.0))
+            if kind not in new:
+                switch.drop()
+            else:
+                cycles = self.blending(kind)
+                if kind not in had:
+                    switch.come_back(self.row.enable[kind])
+                switch.walk.stretch(new[kind].n_cycles)
+            if kind == "friction":
+                continue
+            if kind in new:
+                self.rests[kind].stretch(cycles)
+                value -= self._value(kind, axes) if weight else 0.0
+            self.rests[kind].absorb(weight * value, cycles)
 
 
 class Reference:
@@ -333,6 +420,11 @@ class Reference:
 
     def __init__(self, machine: Machine, cycle_time: float, derive: bool = False) -> None:
         self.axes = {axis.number: AxisReference(axis, machine, cycle_time, derive) for axis in machine.axes}
+
+    def update(self, machine: Machine) -> None:
+        """Take new lists between two cycles."""
+        for axis in machine.axes:
+            self.axes[axis.number].update(axis, self.axes)
 
     def cycle(self, rows: list[Row], reset: bool, program_end: bool) -> list[Result]:
         """Return what every axis puts out, in the order of the machine."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -161,6 +161,46 @@ def machine(rng: np.random.Generator) -> Machine:
     numbers = sorted(rng.choice(np.arange(1, 40), count, replace=False).tolist())
     straight = numbers[:-1] if count > 2 else numbers
     return Machine(tuple(axis(rng, number, numbers, straight) for number in numbers))
+
+
+def updated(rng: np.random.Generator, first: Machine) -> Machine:
+    """Draw other lists for a machine: what it was at the start, with tables dropped, scaled, lengthened, or drawn anew."""
+    numbers = [one.number for one in first.axes]
+    straight = [one.number for one in first.axes if one.type is AxisType.TRANSLATORY]
+    axes = []
+    for one in first.axes:
+        kinds = {old.kind: _updated(rng, old, one, numbers, straight) for old in one.compensations}
+        cycles = int(rng.choice([one.backlash_cycles, 0, 7, 20]))
+        axes.append(replace(one, backlash_cycles=cycles, **kinds))
+    return Machine(tuple(axes))
+
+
+def _updated(rng: np.random.Generator, old: Any, of: Axis, numbers: list[int], straight: list[int]) -> Any:
+    choice = rng.choice(["same", "drop", "cycles", "other", "size"], p=[0.3, 0.1, 0.2, 0.35, 0.05])
+    if choice == "size" and hasattr(old, "max_points"):
+        return replace(old, max_points=(old.max_points or 10201) + 1)
+    if choice == "drop" and not old.manual_activation:
+        return None
+    if choice == "cycles" and hasattr(old, "n_cycles") and not isinstance(old, (Leadscrew, Friction, Backlash)):
+        return replace(old, n_cycles=int(rng.integers(1, 21)))
+    if choice != "other":
+        return old
+    if isinstance(old, Friction):
+        build_up = float(rng.uniform(0.5, 3.0))
+        currents = tuple(1.5 * current for current in old.currents)
+        return replace(old, currents=currents, scaling=float(rng.uniform(-1, 2)), position_delay=build_up)
+    makers = {
+        "leadscrew": lambda: leadscrew(rng, of.modulo),
+        "cross": lambda: cross(rng, numbers),
+        "plane": lambda: plane(rng, numbers),
+        "crosstalk": lambda: crosstalk(rng, straight, numbers),
+        "temperature": lambda: temperature(rng),
+        "backlash": lambda: Backlash(float(rng.uniform(-0.05, 0.05)), int(rng.integers(1, 3))),
+    }
+    new = makers[old.kind]()
+    if hasattr(type(new), "__dataclass_fields__") and "manual_activation" in type(new).__dataclass_fields__:
+        new = replace(new, manual_activation=old.manual_activation)
+    return new
 
 
 def course(rng: np.random.Generator, cycles: int, of: Axis) -> Course:
