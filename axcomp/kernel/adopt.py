@@ -53,7 +53,8 @@ def adopt_axis(
         if weight > 0.0:
             value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
         adopt_switch(before.switching[kind], switching, own, given.enable[kind])
-        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
+        direction = state.motion.axis[i].direction
+        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation, direction)
         if weight > 0.0 and switching.configured:
             value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)
         blend_in(switching, own, weight * value)

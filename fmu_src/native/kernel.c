@@ -896,13 +896,12 @@ static double leadscrew_at(const double *pool, const LeadscrewTable *table, Lead
     return -(negative + ramp(state->reversal_step, table->reversal_cycles) * (positive - negative));
 }
 
-/* Set the state before the first cycle: before any motion the positive direction counts. */
+/* Set the state before the first cycle with a table: no reversal is under way. */
 static void begin_leadscrew(const LeadscrewTable *table, LeadscrewState *state, double position)
 {
     state->started = true;
     state->counted = position;
-    state->backward = false;
-    state->reversal_step = table->reversal_cycles;
+    state->reversal_step = state->backward ? 0 : table->reversal_cycles;
 }
 
 /* Return −Δ at full weight; `position`: the input of the compensation, whose changes give the direction. */
@@ -927,10 +926,18 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
     return leadscrew_at(pool, table, state, position);
 }
 
-/* Go on with another table; a reversal that is under way stays as far as it is. */
-static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *after, LeadscrewState *state)
+/* Go on with another table; a reversal that is under way stays as far as it is.
+ *
+ * `direction`: of the axis' last motion, 0 before any. It counts where there was no table, positive before any.
+ */
+static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *after, LeadscrewState *state,
+        int32_t direction)
 {
     forget(&state->lookup);
+    if (before->reversal_cycles == 0) {
+        state->started = false;
+        state->backward = direction < 0;
+    }
     state->reversal_step = mapped_step(state->reversal_step, before->reversal_cycles, after->reversal_cycles);
 }
 
@@ -1176,16 +1183,16 @@ static void adopt_inputs(const CompensationTables *before, const CompensationTab
     adopt_temperature(&before->temperature, &after->temperature, &given->temperature);
 }
 
-/* Make the state of a kind fit its new table. */
+/* Make the state of a kind fit its new table; `direction`: of the axis' last motion, 0 before any. */
 static void adopt_compensation(int32_t kind, const CompensationTables *before, const CompensationTables *after,
-        CompensationStates *states)
+        CompensationStates *states, int32_t direction)
 {
     if (kind == CROSS) {
         adopt_cross(&states->cross);
     } else if (kind == CROSSTALK) {
         adopt_crosstalk(&states->crosstalk);
     } else if (kind == LEADSCREW) {
-        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew);
+        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew, direction);
     } else if (kind == BACKLASH) {
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
@@ -2665,7 +2672,8 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
             value = settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
         }
         adopt_switch(&before->switching[kind], switching, own, given->enable[kind]);
-        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
+        int32_t direction = state->motion.axis[i].direction;
+        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation, direction);
         if (weight > 0.0 && switching->configured) {
             value -= settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);
         }

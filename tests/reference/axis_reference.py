@@ -133,7 +133,9 @@ class Switch:
         self.asked = self.granted = self.enabled = self.no_move = False
         self.begun = False
 
-    def weigh(self, enable: bool, taken_off: bool, conditions: bool, stands: bool, no_move: bool) -> tuple[float, float]:
+    def weigh(
+        self, enable: bool, taken_off: bool, conditions: bool, stands: bool, no_move: bool
+    ) -> tuple[float, float]:
         """Return the weight in this cycle, and what part of the value NO_MOVE keeps in the setpoint.
 
         ``taken_off``: reset, program end, or the axis is given back.
@@ -350,6 +352,15 @@ class AxisReference:
             self.rests["temperature"].absorb(difference, self.compensations["temperature"].n_cycles)
         self.line = line
 
+    def _begin_again(self, kind: str) -> None:
+        """Begin with a table where there was none: the last motion of the axis says the direction of its screw."""
+        if kind == "leadscrew":
+            self.screw_motion = Direction(self.axis)
+            self.screw_motion.sign = self.direction
+            self.screw_walk = Walk(self.axis.backlash_cycles, 0 if self.direction < 0 else None)
+        elif kind == "backlash":
+            self.backlash_walk = Walk(self.axis.backlash_cycles, 0)
+
     def _step(self, kind: str, weight: float) -> None:
         """Go one cycle on with what a value remembers."""
         one = self.compensations[kind]
@@ -392,7 +403,11 @@ class AxisReference:
         before = {}
         for kind in self.compensations:
             weight = self.switches[kind].walk.weight
-            before[kind] = (weight, self.blending(kind), self._value(kind, axes) if weight and kind != "friction" else 0.0)
+            before[kind] = (
+                weight,
+                self.blending(kind),
+                self._value(kind, axes) if weight and kind != "friction" else 0.0,
+            )
         had = self.compensations
         self.axis, self.friction.axis, self.compensations = axis, axis, new
         self.shift.stretch(self.longest)
@@ -406,6 +421,7 @@ class AxisReference:
                 cycles = self.blending(kind)
                 if kind not in had:
                     switch.come_back(self.row.enable[kind])
+                    self._begin_again(kind)
                 switch.walk.stretch(new[kind].n_cycles)
             if kind == "friction":
                 continue

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -164,7 +164,7 @@ def machine(rng: np.random.Generator) -> Machine:
 
 
 def updated(rng: np.random.Generator, first: Machine) -> Machine:
-    """Draw other lists for a machine: what it was at the start, with tables dropped, scaled, lengthened, or drawn anew."""
+    """Draw other lists for a machine: those of its start, with tables dropped, drawn anew, or switched otherwise."""
     numbers = [one.number for one in first.axes]
     straight = [one.number for one in first.axes if one.type is AxisType.TRANSLATORY]
     axes = []
@@ -198,9 +198,8 @@ def _updated(rng: np.random.Generator, old: Any, of: Axis, numbers: list[int], s
         "backlash": lambda: Backlash(float(rng.uniform(-0.05, 0.05)), int(rng.integers(1, 3))),
     }
     new = makers[old.kind]()
-    if hasattr(type(new), "__dataclass_fields__") and "manual_activation" in type(new).__dataclass_fields__:
-        new = replace(new, manual_activation=old.manual_activation)
-    return new
+    kept = {field.name for field in fields(new)} & {"manual_activation", "without_other_compensations"}
+    return replace(new, **{name: getattr(old, name) for name in kept})
 
 
 def course(rng: np.random.Generator, cycles: int, of: Axis) -> Course:

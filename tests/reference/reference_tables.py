@@ -64,7 +64,9 @@ def crosstalk_correction(
 ) -> float:
     """Return what a crosstalk compensation of the new variant adds; ``direction``: of the master, 1 or −1."""
     sign = 1 if direction > 0 or not crosstalk.velocity_dependent else -1
-    phase, tested = ("accelerate", crosstalk.acceleration) if acceleration >= 0 else ("decelerate", crosstalk.deceleration)
+    phase, tested = (
+        ("accelerate", crosstalk.acceleration) if acceleration >= 0 else ("decelerate", crosstalk.deceleration)
+    )
     field = f"{phase}_{'positive' if sign > 0 else 'negative'}"
     return _measured(crosstalk, field, adaptation, positions) * min(acceleration / tested, 1.0)
 
@@ -98,7 +100,9 @@ def _triangles(places: tuple[tuple[float, float], ...]) -> tuple[Delaunay, Conve
     return Delaunay(np.array(places)), ConvexHull(np.array(places))
 
 
-def _in_triangles(places: tuple[tuple[float, float], ...], values: NDArray[np.float64], at: NDArray[np.float64]) -> float:
+def _in_triangles(
+    places: tuple[tuple[float, float], ...], values: NDArray[np.float64], at: NDArray[np.float64]
+) -> float:
     """Return the value in the triangle around a place, outside that at the nearest place of the hull."""
     triangles, hull = _triangles(places)
     points = np.array(places)

@@ -467,6 +467,25 @@ class TestUpdate:
             assert not runtime.outputs.axis[1].active[CROSS]
             assert runtime.outputs.axis[1].contribution[CROSS] == 0.0
 
+    @pytest.mark.parametrize(("last", "column"), [(0.0, 0.25), (1.0, 0.25), (-1.0, -0.5)])
+    @pytest.mark.parametrize("dropped", [False, True])
+    def test_a_leadscrew_table_that_comes_acts_for_the_direction_of_the_last_motion(
+        self, last: float, column: float, dropped: bool
+    ) -> None:
+        screw = Leadscrew((0.0,), (-0.25,), (0.5,))
+        with_table = Machine((Axis(1, "X", backlash_cycles=6, leadscrew=screw),))
+        without = Machine((Axis(1, "X", backlash_cycles=6, reserved={"leadscrew": screw.max_points}),))
+        runtime = Runtime(with_table if dropped else without)
+        runtime.cycle()
+        runtime.update(without)
+        for setpoint in (7.0 * last, *[8.0 * last] * 8):
+            runtime.inputs.axis[0].setpoint = setpoint
+            runtime.cycle()
+        runtime.update(with_table)
+        for _ in range(10):
+            runtime.cycle()
+            assert runtime.outputs.axis[0].contribution[LEADSCREW] == column
+
     def test_a_kind_that_was_not_activated_is_refused_even_after_other_updates(self) -> None:
         runtime = Runtime(Machine((X, replace(Z, cross=None))))
         runtime.update(Machine((replace(X, backlash_cycles=2), replace(Z, cross=None))))
