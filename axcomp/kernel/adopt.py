@@ -46,8 +46,6 @@ def adopt_axis(
         kind = after.kind[k]
         own = axis.switching[kind]
         switching = after.switching[kind]
-        if not switching.configured:
-            switching.blend_cycles = before.switching[kind].blend_cycles
         weight = own.weight
         value = 0.0
         if weight > 0.0:
@@ -63,12 +61,14 @@ def adopt_axis(
 
 
 def keep_declared(before: AxisTable, after: AxisTable) -> None:
-    """Let what an axis activated at the start count for the next update too."""
+    """Let what an axis activated at the start count for the next update too, and what was dropped go on running out."""
     after.kinds = before.kinds
     for kind in range(KINDS):
         after.kind[kind] = before.kind[kind]
         after.switching[kind].reserved = before.switching[kind].reserved
         after.switching[kind].points_error = before.switching[kind].points_error
+        if not after.switching[kind].configured:
+            after.switching[kind].blend_cycles = before.switching[kind].blend_cycles
 
 
 def adopt_volumetrics(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:

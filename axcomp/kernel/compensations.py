@@ -181,7 +181,7 @@ def adopt_compensation(
     elif kind == BACKLASH:
         adopt_backlash(before.backlash, after.backlash, states.backlash)
     elif kind == FRICTION:
-        adopt_friction(after.friction, states.friction)
+        adopt_friction(before.friction, after.friction, states.friction)
 
 
 def move_compensation(kind: int, tables: CompensationTables, by: int) -> None:

@@ -850,10 +850,16 @@ static double friction_current(const double *pool, const FrictionTable *table, F
     return delayed(table, state, current);
 }
 
-/* Go on with another table. */
-static void adopt_friction(const FrictionTable *after, FrictionState *state)
+/* Go on with another table; where there was none, begin: nothing waits in the delay line. */
+static void adopt_friction(const FrictionTable *before, const FrictionTable *after, FrictionState *state)
 {
     forget(&state->lookup);
+    if (before->curve.points == 0) {
+        state->direction = 0;
+        for (int32_t n = 0; n < DELAY_LINE; n++) {
+            state->line[n] = 0.0;
+        }
+    }
     state->since_reversal = int_min(state->since_reversal, after->lookahead);
 }
 
@@ -1196,7 +1202,7 @@ static void adopt_compensation(int32_t kind, const CompensationTables *before, c
     } else if (kind == BACKLASH) {
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
-        adopt_friction(&after->friction, &states->friction);
+        adopt_friction(&before->friction, &after->friction, &states->friction);
     }
 }
 
@@ -2638,7 +2644,7 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
     return 0;
 }
 
-/* Let what an axis activated at the start count for the next update too. */
+/* Let what an axis activated at the start count for the next update too, and what was dropped go on running out. */
 void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
 {
     after->kinds = before->kinds;
@@ -2646,6 +2652,9 @@ void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
         after->kind[kind] = before->kind[kind];
         after->switching[kind].reserved = before->switching[kind].reserved;
         after->switching[kind].points_error = before->switching[kind].points_error;
+        if (!after->switching[kind].configured) {
+            after->switching[kind].blend_cycles = before->switching[kind].blend_cycles;
+        }
     }
 }
 
@@ -2662,10 +2671,7 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
     for (int32_t k = 0, k_end = after->kinds; k < k_end; k++) {
         int32_t kind = after->kind[k];
         SwitchState *own = &axis->switching[kind];
-        SwitchTable *switching = &after->switching[kind];
-        if (!switching->configured) {
-            switching->blend_cycles = before->switching[kind].blend_cycles;
-        }
+        const SwitchTable *switching = &after->switching[kind];
         double weight = own->weight;
         double value = 0.0;
         if (weight > 0.0) {

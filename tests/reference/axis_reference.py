@@ -352,6 +352,12 @@ class AxisReference:
             self.rests["temperature"].absorb(difference, self.compensations["temperature"].n_cycles)
         self.line = line
 
+    def _standing(self, kind: str, axes: dict[int, AxisReference]) -> float:
+        """Return a value where the axis stands when an update comes; a current is not blended."""
+        if kind == "friction":
+            return 0.0
+        return self._leadscrew(moved=True) if kind == "leadscrew" else self._value(kind, axes)
+
     def _begin_again(self, kind: str) -> None:
         """Begin with a table where there was none: the last motion of the axis says the direction of its screw."""
         if kind == "leadscrew":
@@ -360,6 +366,8 @@ class AxisReference:
             self.screw_walk = Walk(self.axis.backlash_cycles, 0 if self.direction < 0 else None)
         elif kind == "backlash":
             self.backlash_walk = Walk(self.axis.backlash_cycles, 0)
+        elif kind == "friction":
+            self.friction = FrictionReference(self.axis, self.cycle_time)
 
     def _step(self, kind: str, weight: float) -> None:
         """Go one cycle on with what a value remembers."""
@@ -376,9 +384,11 @@ class AxisReference:
         alone = self.compensations["leadscrew"].without_other_compensations
         return self.row.setpoint if alone else self.screw_input
 
-    def _leadscrew(self) -> float:
+    def _leadscrew(self, *, moved: bool = False) -> float:
+        """Return −Δ; ``moved``: at the place of the last motion, for what comes after it is standstill."""
         screw = self.compensations["leadscrew"]
-        positive, negative = leadscrew_errors(screw, self.axis, self._screw_position())
+        position = self.screw_motion.place if moved else self._screw_position()
+        positive, negative = leadscrew_errors(screw, self.axis, position)
         return -(negative + self.screw_walk.weight * (positive - negative))
 
     @property
@@ -406,7 +416,7 @@ class AxisReference:
             before[kind] = (
                 weight,
                 self.blending(kind),
-                self._value(kind, axes) if weight and kind != "friction" else 0.0,
+                self._standing(kind, axes) if weight else 0.0,
             )
         had = self.compensations
         self.axis, self.friction.axis, self.compensations = axis, axis, new
@@ -427,7 +437,7 @@ class AxisReference:
                 continue
             if kind in new:
                 self.rests[kind].stretch(cycles)
-                value -= self._value(kind, axes) if weight else 0.0
+                value -= self._standing(kind, axes) if weight else 0.0
             self.rests[kind].absorb(weight * value, cycles)
 
 
