@@ -50,7 +50,7 @@ def activate(
             if not axis.started:
                 begin_switch(table.switching[kind], state, given.enable[kind], ready, released)
             else:
-                heed_command(table.switching[kind], state, given.enable[kind], released, given.no_move)
+                heed_command(table.switching[kind], state, given.enable[kind], ready, released, given.no_move)
                 if not axis.held:
                     settled = advance_switch(table.switching[kind], state, ready, moving)
                     axis.settled = axis.settled and settled

@@ -46,14 +46,13 @@ def adopt_axis(
         kind = after.kind[k]
         own = axis.switching[kind]
         switching = after.switching[kind]
-        if not switching.configured:
-            switching.blend_cycles = before.switching[kind].blend_cycles
         weight = own.weight
         value = 0.0
         if weight > 0.0:
             value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
         adopt_switch(before.switching[kind], switching, own, given.enable[kind])
-        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation)
+        direction = state.motion.axis[i].direction
+        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation, direction)
         if weight > 0.0 and switching.configured:
             value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)
         blend_in(switching, own, weight * value)
@@ -62,12 +61,14 @@ def adopt_axis(
 
 
 def keep_declared(before: AxisTable, after: AxisTable) -> None:
-    """Let what an axis activated at the start count for the next update too."""
+    """Let what an axis activated at the start count for the next update too, and what was dropped go on running out."""
     after.kinds = before.kinds
     for kind in range(KINDS):
         after.kind[kind] = before.kind[kind]
         after.switching[kind].reserved = before.switching[kind].reserved
         after.switching[kind].points_error = before.switching[kind].points_error
+        if not after.switching[kind].configured:
+            after.switching[kind].blend_cycles = before.switching[kind].blend_cycles
 
 
 def adopt_volumetrics(before: Tables, after: Tables, state: State, outputs: Outputs) -> None:

@@ -169,19 +169,19 @@ def adopt_inputs(before: CompensationTables, after: CompensationTables, given: C
 
 
 def adopt_compensation(
-    kind: int, before: CompensationTables, after: CompensationTables, states: CompensationStates
+    kind: int, before: CompensationTables, after: CompensationTables, states: CompensationStates, direction: int
 ) -> None:
-    """Make the state of a kind fit its new table."""
+    """Make the state of a kind fit its new table; ``direction``: of the axis' last motion, 0 before any."""
     if kind == CROSS:
         adopt_cross(states.cross)
     elif kind == CROSSTALK:
         adopt_crosstalk(states.crosstalk)
     elif kind == LEADSCREW:
-        adopt_leadscrew(before.leadscrew, after.leadscrew, states.leadscrew)
+        adopt_leadscrew(before.leadscrew, after.leadscrew, states.leadscrew, direction)
     elif kind == BACKLASH:
         adopt_backlash(before.backlash, after.backlash, states.backlash)
     elif kind == FRICTION:
-        adopt_friction(after.friction, states.friction)
+        adopt_friction(before.friction, after.friction, states.friction)
 
 
 def move_compensation(kind: int, tables: CompensationTables, by: int) -> None:

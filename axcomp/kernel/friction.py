@@ -127,9 +127,13 @@ def delayed(table: FrictionTable, state: FrictionState, current: float) -> float
     return state.line[at]
 
 
-def adopt_friction(after: FrictionTable, state: FrictionState) -> None:
-    """Go on with another table."""
+def adopt_friction(before: FrictionTable, after: FrictionTable, state: FrictionState) -> None:
+    """Go on with another table; where there was none, begin: nothing waits in the delay line."""
     forget(state.lookup)
+    if before.curve.points == 0:
+        state.direction = 0
+        for n in range(DELAY_LINE):
+            state.line[n] = 0.0
     state.since_reversal = min(state.since_reversal, after.lookahead)
 
 

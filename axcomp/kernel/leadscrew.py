@@ -68,16 +68,21 @@ def leadscrew_at(pool: Vec, table: LeadscrewTable, state: LeadscrewState, positi
 
 
 def begin_leadscrew(table: LeadscrewTable, state: LeadscrewState, position: float) -> None:
-    """Set the state before the first cycle: before any motion the positive direction counts."""
+    """Set the state before the first cycle with a table: no reversal is under way."""
     state.started = True
     state.counted = position
-    state.backward = False
-    state.reversal_step = table.reversal_cycles
+    state.reversal_step = 0 if state.backward else table.reversal_cycles
 
 
-def adopt_leadscrew(before: LeadscrewTable, after: LeadscrewTable, state: LeadscrewState) -> None:
-    """Go on with another table; a reversal that is under way stays as far as it is."""
+def adopt_leadscrew(before: LeadscrewTable, after: LeadscrewTable, state: LeadscrewState, direction: int) -> None:
+    """Go on with another table; a reversal that is under way stays as far as it is.
+
+    ``direction``: of the axis' last motion, 0 before any. It counts where there was no table, positive before any.
+    """
     forget(state.lookup)
+    if before.reversal_cycles == 0:
+        state.started = False
+        state.backward = direction < 0
     state.reversal_step = mapped_step(state.reversal_step, before.reversal_cycles, after.reversal_cycles)
 
 

@@ -58,7 +58,7 @@ def ramp(step: int, cycles: int) -> float:
 def begin_switch(table: SwitchTable, state: SwitchState, enable: bool, ready: bool, released: bool) -> None:
     """Set the state at the start of a simulation: what is on begins at full weight."""
     state.enable = enable
-    state.command = enable and not (table.manual and released)
+    state.command = enable and not is_refused(table, ready, released)
     state.granted = state.command
     state.no_move = False
     state.step = table.cycles if state.granted and ready else 0
@@ -66,16 +66,24 @@ def begin_switch(table: SwitchTable, state: SwitchState, enable: bool, ready: bo
     state.absorbed = 0.0
 
 
-def heed_command(table: SwitchTable, state: SwitchState, enable: bool, released: bool, no_move: bool) -> None:
+def is_refused(table: SwitchTable, ready: bool, released: bool) -> bool:
+    """Tell whether a command to switch on is refused: a manual one, before its references or while it is released."""
+    return table.manual and (released or not ready)
+
+
+def heed_command(
+    table: SwitchTable, state: SwitchState, enable: bool, ready: bool, released: bool, no_move: bool
+) -> None:
     """Take the command of this cycle, if there is one: an edge of ``enable``, or a manual compensation is released.
 
-    ``released``: reset, program end or release of the axis. ``no_move``: the command is to move nothing, whenever it
-    acts.
+    ``ready``: the conditions hold. ``released``: reset, program end or release of the axis. ``no_move``: the command
+    is to move nothing, whenever it acts.
     """
     if enable != state.enable:
         state.enable = enable
-        state.command = enable
-        state.no_move = no_move
+        if not (enable and is_refused(table, ready, released)):
+            state.command = enable
+            state.no_move = no_move
     if table.manual and state.command and released:
         state.command = False
         state.no_move = no_move

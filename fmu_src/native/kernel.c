@@ -109,11 +109,17 @@ static double ramp(int32_t step, int32_t cycles)
     return s * s;
 }
 
+/* Tell whether a command to switch on is refused: a manual one, before its references or while it is released. */
+static bool is_refused(const SwitchTable *table, bool ready, bool released)
+{
+    return table->manual && (released || !ready);
+}
+
 /* Set the state at the start of a simulation: what is on begins at full weight. */
 static void begin_switch(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released)
 {
     state->enable = enable;
-    state->command = enable && !(table->manual && released);
+    state->command = enable && !is_refused(table, ready, released);
     state->granted = state->command;
     state->no_move = false;
     state->step = state->granted && ready ? table->cycles : 0;
@@ -123,15 +129,18 @@ static void begin_switch(const SwitchTable *table, SwitchState *state, bool enab
 
 /* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
  *
- * `released`: reset, program end or release of the axis. `no_move`: the command is to move nothing, whenever it
- * acts.
+ * `ready`: the conditions hold. `released`: reset, program end or release of the axis. `no_move`: the command
+ * is to move nothing, whenever it acts.
  */
-static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool released, bool no_move)
+static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released,
+        bool no_move)
 {
     if (enable != state->enable) {
         state->enable = enable;
-        state->command = enable;
-        state->no_move = no_move;
+        if (!(enable && is_refused(table, ready, released))) {
+            state->command = enable;
+            state->no_move = no_move;
+        }
     }
     if (table->manual && state->command && released) {
         state->command = false;
@@ -841,10 +850,16 @@ static double friction_current(const double *pool, const FrictionTable *table, F
     return delayed(table, state, current);
 }
 
-/* Go on with another table. */
-static void adopt_friction(const FrictionTable *after, FrictionState *state)
+/* Go on with another table; where there was none, begin: nothing waits in the delay line. */
+static void adopt_friction(const FrictionTable *before, const FrictionTable *after, FrictionState *state)
 {
     forget(&state->lookup);
+    if (before->curve.points == 0) {
+        state->direction = 0;
+        for (int32_t n = 0; n < DELAY_LINE; n++) {
+            state->line[n] = 0.0;
+        }
+    }
     state->since_reversal = int_min(state->since_reversal, after->lookahead);
 }
 
@@ -887,13 +902,12 @@ static double leadscrew_at(const double *pool, const LeadscrewTable *table, Lead
     return -(negative + ramp(state->reversal_step, table->reversal_cycles) * (positive - negative));
 }
 
-/* Set the state before the first cycle: before any motion the positive direction counts. */
+/* Set the state before the first cycle with a table: no reversal is under way. */
 static void begin_leadscrew(const LeadscrewTable *table, LeadscrewState *state, double position)
 {
     state->started = true;
     state->counted = position;
-    state->backward = false;
-    state->reversal_step = table->reversal_cycles;
+    state->reversal_step = state->backward ? 0 : table->reversal_cycles;
 }
 
 /* Return −Δ at full weight; `position`: the input of the compensation, whose changes give the direction. */
@@ -918,10 +932,18 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
     return leadscrew_at(pool, table, state, position);
 }
 
-/* Go on with another table; a reversal that is under way stays as far as it is. */
-static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *after, LeadscrewState *state)
+/* Go on with another table; a reversal that is under way stays as far as it is.
+ *
+ * `direction`: of the axis' last motion, 0 before any. It counts where there was no table, positive before any.
+ */
+static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *after, LeadscrewState *state,
+        int32_t direction)
 {
     forget(&state->lookup);
+    if (before->reversal_cycles == 0) {
+        state->started = false;
+        state->backward = direction < 0;
+    }
     state->reversal_step = mapped_step(state->reversal_step, before->reversal_cycles, after->reversal_cycles);
 }
 
@@ -1167,20 +1189,20 @@ static void adopt_inputs(const CompensationTables *before, const CompensationTab
     adopt_temperature(&before->temperature, &after->temperature, &given->temperature);
 }
 
-/* Make the state of a kind fit its new table. */
+/* Make the state of a kind fit its new table; `direction`: of the axis' last motion, 0 before any. */
 static void adopt_compensation(int32_t kind, const CompensationTables *before, const CompensationTables *after,
-        CompensationStates *states)
+        CompensationStates *states, int32_t direction)
 {
     if (kind == CROSS) {
         adopt_cross(&states->cross);
     } else if (kind == CROSSTALK) {
         adopt_crosstalk(&states->crosstalk);
     } else if (kind == LEADSCREW) {
-        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew);
+        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew, direction);
     } else if (kind == BACKLASH) {
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
-        adopt_friction(&after->friction, &states->friction);
+        adopt_friction(&before->friction, &after->friction, &states->friction);
     }
 }
 
@@ -1349,7 +1371,7 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
             if (!axis->started) {
                 begin_switch(&table->switching[kind], state, given->enable[kind], ready, released);
             } else {
-                heed_command(&table->switching[kind], state, given->enable[kind], released, given->no_move);
+                heed_command(&table->switching[kind], state, given->enable[kind], ready, released, given->no_move);
                 if (!axis->held) {
                     bool settled = advance_switch(&table->switching[kind], state, ready, moving);
                     axis->settled = axis->settled && settled;
@@ -2622,7 +2644,7 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
     return 0;
 }
 
-/* Let what an axis activated at the start count for the next update too. */
+/* Let what an axis activated at the start count for the next update too, and what was dropped go on running out. */
 void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
 {
     after->kinds = before->kinds;
@@ -2630,6 +2652,9 @@ void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
         after->kind[kind] = before->kind[kind];
         after->switching[kind].reserved = before->switching[kind].reserved;
         after->switching[kind].points_error = before->switching[kind].points_error;
+        if (!after->switching[kind].configured) {
+            after->switching[kind].blend_cycles = before->switching[kind].blend_cycles;
+        }
     }
 }
 
@@ -2646,17 +2671,15 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
     for (int32_t k = 0, k_end = after->kinds; k < k_end; k++) {
         int32_t kind = after->kind[k];
         SwitchState *own = &axis->switching[kind];
-        SwitchTable *switching = &after->switching[kind];
-        if (!switching->configured) {
-            switching->blend_cycles = before->switching[kind].blend_cycles;
-        }
+        const SwitchTable *switching = &after->switching[kind];
         double weight = own->weight;
         double value = 0.0;
         if (weight > 0.0) {
             value = settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
         }
         adopt_switch(&before->switching[kind], switching, own, given->enable[kind]);
-        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation);
+        int32_t direction = state->motion.axis[i].direction;
+        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation, direction);
         if (weight > 0.0 && switching->configured) {
             value -= settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);
         }

@@ -593,7 +593,7 @@ AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable 
 AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisTable *after,
         const double *after_pool, State *state, AxisInputs *given, int32_t i);
 
-/* Let what an axis activated at the start count for the next update too. */
+/* Let what an axis activated at the start count for the next update too, and what was dropped go on running out. */
 AXCOMP_API void axcomp_keep_declared(const AxisTable *before, AxisTable *after);
 
 /* Make the state of the volumetric compensations fit their new tables. */

@@ -287,6 +287,7 @@ def test_a_state_brings_the_lists_of_its_time_back(driver: Driver, tmp_path: Pat
     other = Driver(resources)
     other.begin()
     other.instance.restore(new)
+    assert other.log == []
     other.time = 0.002
     assert other.get("reload") is True
     assert [other.step() for _ in range(3)][-1]["X.leadscrew.correction"] == -0.5

@@ -243,6 +243,12 @@ class TestManual:
         w = weights(kind, columns, manual=True)
         assert w == pytest.approx(ramped(kind, ".......11"), abs=1e-15)
 
+    @pytest.mark.parametrize(("kind", "axis"), [("cross", "M"), ("plane", "M"), ("plane", "S"), ("leadscrew", "S")])
+    @pytest.mark.parametrize("enable", ["1111111.11", "..11111.11", "....111.11"])
+    def test_a_command_before_the_reference_is_refused_too(self, kind: str, axis: str, enable: str) -> None:
+        columns = {f"S.{kind}_enable": flags(enable), f"{axis}.referenced": flags(".....11111")}
+        assert weights(kind, columns, manual=True) == pytest.approx(ramped(kind, "........11"), abs=1e-15)
+
     def test_enabled_from_the_start_it_is_on_from_the_start(self) -> None:
         assert weights("cross", {"S.cross_enable": flags("111")}, manual=True).tolist() == [1, 1, 1]
 

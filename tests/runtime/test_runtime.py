@@ -465,6 +465,52 @@ class TestUpdate:
             assert not runtime.outputs.axis[1].active[CROSS]
             assert runtime.outputs.axis[1].contribution[CROSS] == 0.0
 
+    @pytest.mark.parametrize(("last", "column"), [(0.0, 0.25), (1.0, 0.25), (-1.0, -0.5)])
+    @pytest.mark.parametrize("dropped", [False, True])
+    def test_a_leadscrew_table_that_comes_acts_for_the_direction_of_the_last_motion(
+        self, last: float, column: float, dropped: bool
+    ) -> None:
+        screw = Leadscrew((0.0,), (-0.25,), (0.5,))
+        with_table = Machine((Axis(1, "X", backlash_cycles=6, leadscrew=screw),))
+        without = Machine((Axis(1, "X", backlash_cycles=6, reserved={"leadscrew": screw.max_points}),))
+        runtime = Runtime(with_table if dropped else without)
+        runtime.cycle()
+        runtime.update(without)
+        for setpoint in (7.0 * last, *[8.0 * last] * 8):
+            runtime.inputs.axis[0].setpoint = setpoint
+            runtime.cycle()
+        runtime.update(with_table)
+        for _ in range(10):
+            runtime.cycle()
+            assert runtime.outputs.axis[0].contribution[LEADSCREW] == column
+
+    def test_a_current_that_comes_back_has_nothing_waiting_from_before(self) -> None:
+        with_table = Machine((Axis(1, "X", friction=Friction((0.0,), (1.0,), delay_cycles=3)),))
+        runtime = Runtime(with_table)
+        runtime.inputs.axis[0].velocity = 5.0
+        currents = []
+        for k in range(20):
+            if k in (6, 10):
+                runtime.update(with_table if k == 10 else Machine((Axis(1, "X"),)))
+            runtime.cycle()
+            currents.append(runtime.outputs.axis[0].contribution[FRICTION])
+        assert currents == [0.0] * 3 + [1.0] * 3 + [0.0] * 7 + [1.0] * 7
+
+    def test_what_runs_out_goes_on_when_a_later_update_is_refused(self) -> None:
+        runtime = Runtime(MACHINE)
+        run(runtime, 0, 1)
+        held = runtime.outputs.axis[1].contribution[CROSS]
+        runtime.update(Machine((X, replace(Z, cross=None))))
+        values = []
+        for k in range(12):
+            if k == 4:
+                refused = replace(Z, cross=None, plane=replace(Z.plane, max_points=77))
+                assert runtime.update(Machine((X, refused))) == {"Z": 110640}
+            runtime.cycle()
+            values.append(runtime.outputs.axis[1].contribution[CROSS])
+        rest = np.sin(np.pi / 2 * np.clip(np.arange(9, -3, -1), 0, 10) / 10) ** 2
+        assert values == pytest.approx(held * rest, abs=1e-15)
+
     def test_a_kind_that_was_not_activated_is_refused_even_after_other_updates(self) -> None:
         runtime = Runtime(Machine((X, replace(Z, cross=None))))
         runtime.update(Machine((replace(X, backlash_cycles=2), replace(Z, cross=None))))
