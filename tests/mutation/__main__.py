@@ -94,7 +94,12 @@ def _drawn(root: Path, chosen: list[str], sample: int, seed: int) -> list[tuple[
     for source in chosen:
         kind = c_mutants if source.endswith(".c") else python_mutants
         every += [(source, mutant) for mutant in kind.mutants((root / source).read_bytes())]
-    return random.Random(seed).sample(every, min(sample, len(every)) if sample else len(every))
+    drawn = random.Random(seed).sample(every, min(sample, len(every)) if sample else len(every))
+    return [
+        (source, mutant)
+        for source, mutant in drawn
+        if source.endswith(".c") or python_mutants.compiles(mutant.of((root / source).read_bytes()))
+    ]
 
 
 def _print_table(tried: Counter[str], noticed: Counter[str]) -> None:

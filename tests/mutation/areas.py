@@ -19,6 +19,7 @@ TESTS = {
     "interface": ("interface", "fmu"),
     "measurement": ("measurement", "fit"),
     "fit": ("fit", "volumetric"),
+    "demo": ("demo", "models"),
 }
 """Folders of tests by room, where they are not the room's own folder alone."""
 GENERATED = {"kernel.c", "places.c"}

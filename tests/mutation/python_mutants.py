@@ -79,10 +79,9 @@ class _Places:
 
 
 def mutants(source: bytes) -> list[Mutant]:
-    """Return all changes that compile: comparison, arithmetic, constant ± 1, and/or, not, return value, statement."""
+    """Return all changes of a source: comparison, arithmetic, constant ± 1, and/or, not, return value, statement."""
     places = _Places(source)
-    found = [change for node in _executed(ast.parse(source)) for change in _changes(node, places)]
-    return [change for change in found if _compiles(change.of(source))]
+    return [change for node in _executed(ast.parse(source)) for change in _changes(node, places)]
 
 
 def _executed(node: ast.AST) -> Iterator[ast.AST]:
@@ -124,7 +123,8 @@ def _changes(node: ast.AST, places: _Places) -> Iterator[Mutant]:
             yield places.whole(node, "pass")
 
 
-def _compiles(source: bytes) -> bool:
+def compiles(source: bytes) -> bool:
+    """Tell whether a changed source can be imported at all: what cannot proves nothing."""
     try:
         compile(source, "mutant", "exec")
     except (SyntaxError, ValueError):
