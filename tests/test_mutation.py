@@ -53,7 +53,7 @@ def test_a_survivor_is_named_and_decides_the_exit_status(toy: Path) -> None:
     (toy / "axcomp/kernel/toy.py").write_text(TESTED + UNTESTED)
     done = run(toy, "axcomp/kernel", "--at-least", "90", "--sample", "0")
     assert (done.returncode, done.stderr) == (1, "")
-    assert "axcomp/kernel/toy.py:6: survived: / in a / 2 -> *\n" in done.stdout
+    assert "axcomp/kernel/toy.py:6:14: survived: / in a / 2 -> *\n" in done.stdout
     assert "| kernel | 2 | 6 |" in done.stdout
 
 

@@ -48,10 +48,11 @@ def main() -> int:
                 red.add(area)
                 continue
             tried[area] += 1
-            if checkout.notices(source, mutant.of((root / source).read_bytes())):
+            content = (root / source).read_bytes()
+            if checkout.notices(source, mutant.of(content)):
                 noticed[area] += 1
             else:
-                print(f"{source}:{mutant.line}: survived: {mutant}", flush=True)
+                print(f"{source}:{mutant.line}:{mutant.column(content)}: survived: {mutant}", flush=True)
     _print_table(tried, noticed)
     if red or (drawn and not tried):
         return 2

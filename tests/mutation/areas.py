@@ -17,7 +17,6 @@ TESTS = {
     "model": ("model", "runtime", "volumetric"),
     "runtime": ("runtime", "volumetric", "engine"),
     "interface": ("interface", "fmu"),
-    "measurement": ("measurement", "fit"),
     "fit": ("fit", "volumetric"),
     "demo": ("demo", "models"),
 }

@@ -20,6 +20,10 @@ class Mutant(NamedTuple):
         """Return the changed source."""
         return source[: self.start] + self.new.encode() + source[self.end :]
 
+    def column(self, source: bytes) -> int:
+        """Return the column of the change in bytes, from 1."""
+        return self.start - source.rfind(b"\n", 0, self.start)
+
     def __str__(self) -> str:
         old = " ".join(self.old.split())
         return f"{old if len(old) <= 60 else old[:57] + '...'} -> {self.new}"
