@@ -176,6 +176,11 @@ def test_uncertainties_are_those_calculated_by_hand():
     assert contributions == pytest.approx(
         {"U_DEVICE": 0.5, "U_MISALIGNMENT": 0.288675, "U_M": 6.928203, "U_E": 3.464102, "U_EVE": 0.981495}, abs=1e-6
     )
+    shorter = conditions.contributions(250.0)
+    assert [shorter[name] for name in ("U_DEVICE", "U_M", "U_E")] == pytest.approx(
+        [0.125, 1.732051, 0.866025], abs=1e-6
+    )
+    assert shorter["U_MISALIGNMENT"] == pytest.approx(1.154701, abs=1e-6)
     found = conditions.of_parameters(1000.0, 5)
     common = math.sqrt(0.5**2 + 0.288675**2 + 6.928203**2 + 3.464102**2)
     assert found["B"] == pytest.approx(0.981495 * math.sqrt(0.4), abs=1e-6)

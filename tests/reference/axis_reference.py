@@ -20,7 +20,7 @@ from reference_tables import (
 )
 
 from axcomp.kinds import CrosstalkCurve
-from axcomp.model.machine import Axis, Machine
+from axcomp.model import Axis, Machine
 
 STANDSTILL = 1e-9
 """mm or ° a cycle below which an axis stands."""
@@ -413,11 +413,7 @@ class AxisReference:
         before = {}
         for kind in self.compensations:
             weight = self.switches[kind].walk.weight
-            before[kind] = (
-                weight,
-                self.blending(kind),
-                self._standing(kind, axes) if weight else 0.0,
-            )
+            before[kind] = (weight, self.blending(kind), self._standing(kind, axes) if weight else 0.0)
         had = self.compensations
         self.axis, self.friction.axis, self.compensations = axis, axis, new
         self.shift.stretch(self.longest)

@@ -21,7 +21,7 @@ from axcomp.kinds import (
     Plane,
     Temperature,
 )
-from axcomp.model.machine import Axis, AxisType, Machine, ModuloRange
+from axcomp.model import Axis, AxisType, Machine, ModuloRange
 
 CYCLE_TIME = 1e-3
 

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from axcomp.kinds import Friction
-from axcomp.model.machine import Axis
+from axcomp.model import Axis
 
 STANDSTILL = 1e-9
 

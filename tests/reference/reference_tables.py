@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, Delaunay
 
 from axcomp.kinds import Cross, Crosstalk, CrosstalkCurve, Leadscrew, Plane
-from axcomp.model.machine import Axis
+from axcomp.model import Axis
 
 FIELDS = ("accelerate_positive", "accelerate_negative", "decelerate_positive", "decelerate_negative")
 

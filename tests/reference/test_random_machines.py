@@ -8,7 +8,7 @@ import random_machines
 from axis_reference import Reference, Result, Row
 
 from axcomp.kinds import KIND_NAMES
-from axcomp.runtime.runtime import Runtime
+from axcomp.runtime import Runtime
 
 TOLERANCE = 1e-12
 """mm, °, and the drive's unit of current."""
