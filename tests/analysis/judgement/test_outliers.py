@@ -49,8 +49,11 @@ def test_kinks_and_steps_are_no_outliers(height: int, flat: int, ramp: int) -> N
 def test_an_injected_outlier_is_found_and_nothing_else(table, data) -> None:
     x, y = table
     at = data.draw(st.integers(2, len(x) - 3))
-    # Beyond what the curve itself does within two points, and beyond six times its ordinary distances.
-    least = 10.0 * float(np.abs(np.diff(y, 2)).max()) + 0.005
+    # Beyond what the curve itself does within two points, and beyond six times its ordinary distances (1.48 · median)
+    # from the lines through its neighbours, which are not in the middle where the points are not equidistant.
+    lines = [np.interp(x[k], x[[k - 1, k + 1]], y[[k - 1, k + 1]]) for k in range(1, len(x) - 1)]
+    own = max(np.abs(np.diff(y, 2)).max(), np.abs(y[1:-1] - lines).max())
+    least = 10.0 * float(own) + 0.005
     size = data.draw(st.sampled_from([-1.0, 1.0])) * data.draw(st.floats(least, 3.0 * least))
     y = y.copy()
     y[at] += size
