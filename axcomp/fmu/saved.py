@@ -36,7 +36,9 @@ class Saved:
 
     def to_bytes(self) -> bytes:
         """Return bytes with a check sum."""
-        body = pickle.dumps(tuple(getattr(self, field.name) for field in fields(self)), protocol=4)
+        written = io.BytesIO()
+        _MachinePickler(written, protocol=4).dump(tuple(getattr(self, field.name) for field in fields(self)))
+        body = written.getvalue()
         return MAGIC + zlib.crc32(body).to_bytes(4, "little") + body
 
     @classmethod
@@ -50,6 +52,13 @@ class Saved:
             return cls(*_MachineUnpickler(io.BytesIO(body)).load())
         except (pickle.UnpicklingError, TypeError, ValueError, EOFError, IndexError, AttributeError) as error:
             raise SnapshotError(f"this state belongs to another version: {error}") from None
+
+
+class _MachinePickler(pickle.Pickler):
+    """Writes a choice by its value: Python 3.11.0 to 3.11.3 would call ``getattr``, which is not allowed below."""
+
+    def reducer_override(self, obj: object) -> Any:
+        return (type(obj), (obj.value,)) if isinstance(obj, enum.Enum) else NotImplemented
 
 
 class _MachineUnpickler(pickle.Unpickler):

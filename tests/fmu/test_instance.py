@@ -9,6 +9,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import replace
+from enum import Enum
 from pathlib import Path
 from typing import Any
 
@@ -292,6 +293,21 @@ def test_a_state_brings_the_lists_of_its_time_back(driver: Driver, tmp_path: Pat
     assert other.get("reload") is True
     assert [other.step() for _ in range(3)][-1]["X.leadscrew.correction"] == -0.5
     assert other.log == []
+
+
+def test_a_state_with_lists_fits_wherever_choices_are_pickled_by_name(
+    driver: Driver, tmp_path: Path, resources: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As Python 3.11.0 to 3.11.3 do: by a call of ``getattr``, which no state may ask for."""
+    monkeypatch.setattr(Enum, "__reduce_ex__", lambda self, _: (getattr, (type(self), self.name)))
+    write_machine(with_leadscrew(three_axes(), positive=(0.5, 0.5, 0.5, 0.5)), tmp_path / "new")
+    driver.step({"X.setpoint": 10.0})
+    driver.step({"update_path": str(tmp_path / "new"), "reload": True})
+    other = Driver(resources)
+    other.begin()
+    other.instance.restore(driver.instance.save())
+    assert other.log == []
+    assert other.get("reload") is True
 
 
 def test_findings_go_to_the_log_errors_to_standard_error_too(
