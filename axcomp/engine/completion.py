@@ -70,14 +70,20 @@ def _derive(
     """Add velocity and acceleration where they are missing, by backward differences; return their names."""
     missing = [names[name] for name in (VELOCITY, ACCELERATION) if names[name] not in found]
     if names[VELOCITY] in missing:
-        way = np.diff(setpoint, prepend=last[0])
-        if modulo > 0.0:
-            way -= modulo * np.floor(way / modulo + 0.5)
-        found[names[VELOCITY]] = way / cycle_time
+        found[names[VELOCITY]] = differences(setpoint, last[0], cycle_time, modulo)
     if names[ACCELERATION] in missing:
         velocity = np.asarray(found[names[VELOCITY]], dtype=float)
-        found[names[ACCELERATION]] = np.diff(velocity, prepend=last[1]) / cycle_time
+        found[names[ACCELERATION]] = differences(velocity, last[1], cycle_time)
     return missing if np.any(setpoint != last[0]) else []
+
+
+def differences(values: NDArray[Any], before: float, cycle_time: float, modulo: float = 0.0) -> NDArray[Any]:
+    """Return the backward differences per s, (n,), of values (n,) that repeat after ``modulo``, 0: do not."""
+    way = np.diff(values, prepend=before)
+    if modulo > 0.0:
+        way -= modulo * np.floor(way / modulo + 0.5)
+    found: NDArray[Any] = way / cycle_time
+    return found
 
 
 def _look_ahead(found: dict[str, ArrayLike], names: Mapping[str, str], velocity: NDArray[Any]) -> None:

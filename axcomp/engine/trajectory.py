@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..lists import decode
+from .completion import differences
 from .motion import Array, Course, Limits, Setpoints
 
 Columns = dict[str, npt.NDArray[Any]]
@@ -132,8 +133,8 @@ def completed(columns: Columns, known: set[str], cycle_time: float) -> Columns:
         prefix, _, last = name.rpartition(".")
         if last != _SETPOINT:
             continue
-        velocity = np.diff(np.asarray(position, dtype=np.float64), prepend=position[0]) / cycle_time
-        acceleration = np.diff(velocity, prepend=0.0) / cycle_time
+        velocity = differences(np.asarray(position, dtype=np.float64), position[0], cycle_time)
+        acceleration = differences(velocity, 0.0, cycle_time)
         for kind, values in ((_VELOCITY, velocity), (_ACCELERATION, acceleration), (_ACTUAL, position)):
             if f"{prefix}.{kind}" in known:
                 found.setdefault(f"{prefix}.{kind}", values)
