@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..interface import Naming, Slot, Value, Variable, by_name, slot_of, variables_of, with_causality
+from ..interface import Naming, Slot, Value, Variable, by_name, identifier, slot_of, variables_of, with_causality
 from ..lists import Finding, TypeName, read_machine
 from ..model import CYCLE_TIME, Machine
 from ..native import CompiledTables, compiled_kernel, run_compiled
@@ -203,6 +203,11 @@ class Engine:
         if len(pieces) > 1:
             values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
         return Result(time, values, (*notices, *self.runtime.notices()))
+
+    @property
+    def modulo(self) -> dict[str, float]:
+        """After how many ° the positions of an axis repeat, by its name among the variables; only axes that do."""
+        return {identifier(axis.name): axis.modulo.length for axis in self.machine.axes if axis.modulo is not None}
 
     def _completed(self, trajectory: Mapping[str, ArrayLike]) -> tuple[dict[str, ArrayLike], list[str]]:
         """Add what follows from the setpoints and velocities of a trajectory (see ``completion``)."""

@@ -8,6 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -123,17 +124,20 @@ class Motion:
 LIMITS = ("velocity", "acceleration", "jerk")
 
 
-def completed(columns: Columns, known: set[str], cycle_time: float) -> Columns:
+def completed(
+    columns: Columns, known: set[str], cycle_time: float, modulo: Mapping[str, float] = MappingProxyType({})
+) -> Columns:
     """Return the inputs with what follows from the setpoints, where a machine knows it and it is not given.
 
     Velocity and acceleration by differences over a cycle (semantics §4), the actual position equal to the setpoint.
+    ``modulo``: after how many ° the positions of an axis repeat, by its name in the columns.
     """
     found = dict(columns)
     for name, position in columns.items():
         prefix, _, last = name.rpartition(".")
         if last != _SETPOINT:
             continue
-        velocity = differences(np.asarray(position, dtype=np.float64), position[0], cycle_time)
+        velocity = differences(np.asarray(position, dtype=np.float64), position[0], cycle_time, modulo.get(prefix, 0.0))
         acceleration = differences(velocity, 0.0, cycle_time)
         for kind, values in ((_VELOCITY, velocity), (_ACCELERATION, acceleration), (_ACTUAL, position)):
             if f"{prefix}.{kind}" in known:

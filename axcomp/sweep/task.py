@@ -118,13 +118,13 @@ def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
             machine = setting.target.applied(machine, float(value))
     engine = Engine(machine, cycle_time)
     inputs = {variable.name for variable in engine.variables if variable.causality == "input"}
-    given = _given(run, columns, inputs, cycle_time)
+    given = _given(run, columns, inputs, cycle_time, engine.modulo)
     return {**given, **engine.run(given).values}, cycle_time, findings
 
 
-def _given(run: Run, columns: Columns, known: set[str], cycle_time: float) -> Columns:
+def _given(run: Run, columns: Columns, known: set[str], cycle_time: float, modulo: Mapping[str, float]) -> Columns:
     """Return the inputs of a run: those of the trajectory, what follows from them, and what is varied."""
-    found = completed(columns, known, cycle_time)
+    found = completed(columns, known, cycle_time, modulo)
     cycles = len(next(iter(found.values())))
     for setting, value in run.values.items():
         if setting.kind == "input":
@@ -170,7 +170,7 @@ def _simulate_fmu(
     variables = [v for v in unpacked.description.modelVariables if v.type != "String"]
     types = {v.name: {"Boolean": np.bool_, "Integer": np.int32}.get(v.type, np.float64)
              for v in variables if v.causality == "input"}  # fmt: skip
-    given = _given(run, columns, set(types), cycle_time)
+    given = _given(run, columns, set(types), cycle_time, {})
     for name in given:
         if name not in types:
             raise ValueError(f"{name} is no input; the inputs are {', '.join(types)}")

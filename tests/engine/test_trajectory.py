@@ -91,3 +91,10 @@ def test_what_follows_from_setpoints_is_added_where_the_machine_knows_it() -> No
     given = {"X.setpoint": position, "X.velocity": np.zeros(100)}
     assert completed(given, {"X.velocity"}, DT).keys() == given.keys()
     assert not completed(given, known, DT)["X.velocity"].any()
+
+
+def test_what_follows_from_setpoints_goes_the_short_way_over_the_seam_of_an_axis() -> None:
+    folded = {"C.setpoint": np.array([359.9, 0.1, 0.3])}
+    found = completed(folded, {"C.velocity", "C.acceleration"}, DT, {"C": 360.0})
+    assert found["C.velocity"] == pytest.approx([0.0, 0.2 / DT, 0.2 / DT])
+    assert found["C.acceleration"] == pytest.approx([0.0, 0.2 / DT**2, 0.0], abs=1e-5)

@@ -223,7 +223,7 @@ def budget_of(
         columns["tool_length"] = np.full(len(next(iter(columns.values()))), tool_length)
     if not machine.volumetric:
         columns.pop("tool_length", None)
-    columns = completed(columns, {v.name for v in with_causality(engine.variables, "input")}, cycle_time)
+    columns = completed(columns, {v.name for v in with_causality(engine.variables, "input")}, cycle_time, engine.modulo)
     result = engine.run(columns)
     at = np.unique(np.linspace(0, len(result) - 1, min(max(points, 2), len(result))).round().astype(np.int64))
     found: list[Contribution] = []
