@@ -135,10 +135,8 @@ def _at_different_positions(source: TableReader, rows: list[CrosstalkTest], name
 
 
 def _in_line(tests: Sequence[CrosstalkTest], mode: int) -> bool:
-    """Whether the positions span nothing to interpolate over."""
+    """Whether the positions of mode 3 span nothing to interpolate over (semantics: within 1 µm of a line)."""
     x, y = ([test.position1 for test in tests], [test.position2 for test in tests])
-    if mode == 2:
-        return max(x) - min(x) < THINNEST
     return mode == 3 and (width(x, y) < THINNEST or not triangulate(x, y).triangles)
 
 
