@@ -9,7 +9,7 @@ from .compensations import KINDS, adopt_compensation, adopt_inputs, move_compens
 from .record import Vec
 from .records import ERROR_UPDATE, AxisInputs, AxisTable, Outputs, State, Tables
 from .shift import adopt_shift
-from .switching import adopt_switch, blend_in
+from .switching import SwitchState, SwitchTable, adopt_switch, blend_in
 from .volumetric_switching import adopt_volumetric
 
 
@@ -49,15 +49,34 @@ def adopt_axis(
         weight = own.weight
         value = 0.0
         if weight > 0.0:
-            value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
+            value = weight * settled_value(
+                kind, before_pool, before.compensation, axis.compensation, state.motion, i, axis.added
+            )
         adopt_switch(before.switching[kind], switching, own, given.enable[kind])
-        direction = state.motion.axis[i].direction
-        adopt_compensation(kind, before.compensation, after.compensation, axis.compensation, direction)
-        if weight > 0.0 and switching.configured:
-            value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)
-        blend_in(switching, own, weight * value)
+        adopt_compensation(
+            kind, before.compensation, after.compensation, axis.compensation, state.motion.axis[i], axis.added
+        )
+        if axis.started and switching.configured:
+            if comes_on_at_once(switching, own, state):
+                own.step = 1
+                own.weight = 1.0
+                weight = 1.0
+            value -= weight * settled_value(
+                kind, after_pool, after.compensation, axis.compensation, state.motion, i, axis.added
+            )
+        blend_in(switching, own, value)
     adopt_inputs(before.compensation, after.compensation, given.compensation)
     adopt_shift(before.shift_cycles, after.shift_cycles, axis.shift)
+
+
+def comes_on_at_once(table: SwitchTable, own: SwitchState, state: State) -> bool:
+    """Tell whether a compensation that is off will be on in one step, so that its values have to come in softly."""
+    if not (table.configured and table.cycles == 1 and own.step == 0 and own.granted):
+        return False
+    for k in range(table.needs):
+        if not state.axis[table.need[k]].referenced:
+            return False
+    return True
 
 
 def keep_declared(before: AxisTable, after: AxisTable) -> None:

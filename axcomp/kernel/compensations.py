@@ -24,12 +24,14 @@ from .leadscrew import (
     LeadscrewState,
     LeadscrewTable,
     adopt_leadscrew,
+    begin_leadscrew,
     leadscrew_at,
     leadscrew_fits,
+    leadscrew_input,
     leadscrew_value,
     move_leadscrew,
 )
-from .motion import Motion
+from .motion import AxisMotion, Motion
 from .plane import PlaneTable, move_plane, plane_fits, plane_value
 from .record import Vec
 from .temperature import (
@@ -94,12 +96,12 @@ def compensation_value(
     given: CompensationInputs,
     motion: Motion,
     axis: int,
-    position: float,
+    added: float,
     cycle_time: float,
 ) -> float:
     """Return what a kind adds to the setpoint or the current of an axis at full weight.
 
-    ``position``: the setpoint with all that was added before.
+    ``added``: to the setpoint before the leadscrew.
     """
     if kind == CROSS:
         return cross_value(pool, tables.cross, states.cross, motion)
@@ -110,8 +112,7 @@ def compensation_value(
     if kind == TEMPERATURE:
         return temperature_value(tables.temperature, states.temperature, motion.axis[axis].setpoint)
     if kind == LEADSCREW:
-        if tables.leadscrew.without_other:
-            position = motion.axis[axis].setpoint
+        position = leadscrew_input(tables.leadscrew, motion.axis[axis].setpoint, added)
         return leadscrew_value(pool, tables.leadscrew, states.leadscrew, position)
     if kind == BACKLASH:
         return backlash_value(tables.backlash, states.backlash, motion.axis[axis].direction)
@@ -119,11 +120,20 @@ def compensation_value(
 
 
 def settled_value(
-    kind: int, pool: Vec, tables: CompensationTables, states: CompensationStates, motion: Motion, axis: int
+    kind: int,
+    pool: Vec,
+    tables: CompensationTables,
+    states: CompensationStates,
+    motion: Motion,
+    axis: int,
+    added: float,
 ) -> float:
     """Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0."""
     if kind == LEADSCREW:
-        return leadscrew_at(pool, tables.leadscrew, states.leadscrew, states.leadscrew.counted)
+        position = leadscrew_input(tables.leadscrew, motion.axis[axis].setpoint, added)
+        if not states.leadscrew.started:
+            begin_leadscrew(tables.leadscrew, states.leadscrew, position)
+        return leadscrew_at(pool, tables.leadscrew, states.leadscrew, position)
     if kind == BACKLASH:
         return backlash_at(tables.backlash, states.backlash)
     if kind == CROSS:
@@ -169,15 +179,20 @@ def adopt_inputs(before: CompensationTables, after: CompensationTables, given: C
 
 
 def adopt_compensation(
-    kind: int, before: CompensationTables, after: CompensationTables, states: CompensationStates, direction: int
+    kind: int,
+    before: CompensationTables,
+    after: CompensationTables,
+    states: CompensationStates,
+    motion: AxisMotion,
+    added: float,
 ) -> None:
-    """Make the state of a kind fit its new table; ``direction``: of the axis' last motion, 0 before any."""
+    """Make the state of a kind fit its new table; ``added``: to the setpoint before the leadscrew."""
     if kind == CROSS:
         adopt_cross(states.cross)
     elif kind == CROSSTALK:
         adopt_crosstalk(states.crosstalk)
     elif kind == LEADSCREW:
-        adopt_leadscrew(before.leadscrew, after.leadscrew, states.leadscrew, direction)
+        adopt_leadscrew(before.leadscrew, after.leadscrew, states.leadscrew, motion, added)
     elif kind == BACKLASH:
         adopt_backlash(before.backlash, after.backlash, states.backlash)
     elif kind == FRICTION:

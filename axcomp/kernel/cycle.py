@@ -105,14 +105,14 @@ def correct_by(
     switching = table.switching[kind]
     own = axis.switching[kind]
     value = 0.0
+    if kind == LEADSCREW:
+        axis.added = correction + axis.shift.before.now
     if switching.configured:
-        position = state.motion.axis[i].setpoint
         if has_inputs(kind):
-            lost = renew(kind, table.compensation, axis.compensation, given.compensation, position)
+            setpoint = state.motion.axis[i].setpoint
+            lost = renew(kind, table.compensation, axis.compensation, given.compensation, setpoint)
             if axis.started:
                 blend_in(switching, own, own.weight * lost)
-        if kind == LEADSCREW:
-            position = position + (correction + axis.shift.before.now)
         value = compensation_value(
             kind,
             pool,
@@ -121,7 +121,7 @@ def correct_by(
             given.compensation,
             state.motion,
             i,
-            position,
+            axis.added,
             tables.cycle_time,
         )
     contribution = contribution_of(switching, own, value)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
-from .motion import Argument, argument_fits, folded, is_motion
+from .motion import Argument, AxisMotion, argument_fits, folded, is_motion
 from .record import Vec
 from .switching import CYCLES_MAX, mapped_step, ramp
 
@@ -36,6 +36,11 @@ class LeadscrewState:
     counted: float  # input when it last moved
     backward: bool  # its last motion was negative
     reversal_step: int  # reversal_cycles: positive values, 0: negative values
+
+
+def leadscrew_input(table: LeadscrewTable, setpoint: float, added: float) -> float:
+    """Return the input of the compensation; ``added``: what stands before it besides the setpoint."""
+    return setpoint if table.without_other else setpoint + added
 
 
 def leadscrew_value(pool: Vec, table: LeadscrewTable, state: LeadscrewState, position: float) -> float:
@@ -74,15 +79,19 @@ def begin_leadscrew(table: LeadscrewTable, state: LeadscrewState, position: floa
     state.reversal_step = 0 if state.backward else table.reversal_cycles
 
 
-def adopt_leadscrew(before: LeadscrewTable, after: LeadscrewTable, state: LeadscrewState, direction: int) -> None:
-    """Go on with another table; a reversal that is under way stays as far as it is.
+def adopt_leadscrew(
+    before: LeadscrewTable, after: LeadscrewTable, state: LeadscrewState, motion: AxisMotion, added: float
+) -> None:
+    """Go on with another table; a reversal that is under way stays as far as it is, another input is no motion.
 
-    ``direction``: of the axis' last motion, 0 before any. It counts where there was no table, positive before any.
+    Where there was no table the direction of the axis' last motion counts, positive before any.
     """
     forget(state.lookup)
     if before.reversal_cycles == 0:
         state.started = False
-        state.backward = direction < 0
+        state.backward = motion.direction < 0
+    elif before.without_other != after.without_other:
+        state.counted = leadscrew_input(after, motion.setpoint, added)
     state.reversal_step = mapped_step(state.reversal_step, before.reversal_cycles, after.reversal_cycles)
 
 

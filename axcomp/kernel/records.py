@@ -45,6 +45,7 @@ class AxisState:
     released: bool  # the input in the last cycle
     error: int  # stays until reset
     stop_request: bool  # stays until reset, or until a volumetric compensation is switched on again
+    added: float  # to the setpoint before the leadscrew, in the last cycle
     volumetric_correction: float  # of all volumetric compensations, this cycle
     volumetric_shift: float  # what they have absorbed
     shift: ShiftState

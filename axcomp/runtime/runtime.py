@@ -16,12 +16,13 @@ from ..kernel import (
     Outputs,
     State,
     Tables,
+    Vec,
     adopt_axis,
     adopt_volumetric,
     adopt_volumetrics,
     cycle,
     has_notice,
-    keep_declared,
+    move_axis_table,
     set_initial_inputs,
     update_error,
     zero,
@@ -163,18 +164,24 @@ class Runtime:
         if any(errors):
             pairs = zip(self.machine.axes, machine.axes, errors, strict=True)
             machine = replace(machine, axes=tuple(old if error else new for old, new, error in pairs))
-            after, pool = compile_tables(machine, before.cycle_time)
         for index, error in enumerate(errors):
             old, new = before.axis[index], after.axis[index]
             if error == 0:
                 adopt_axis(old, self.pool, new, pool, self.state, self.inputs.axis[index], index)
             else:
-                keep_declared(old, new)
+                self._keep_axis(after, pool, index)
             self.state.axis[index].error = self.outputs.axis[index].error = error
         adopt_volumetrics(before, after, self.state, self.outputs)
         self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None
         return {axis.name: error for axis, error in zip(machine.axes, errors, strict=True) if error}
+
+    def _keep_axis(self, after: Tables, pool: Vec, index: int) -> None:
+        """Let an axis of new tables keep the table that is in force."""
+        table = after.axis[index] = copy.deepcopy(self.tables.axis[index])
+        first = len(pool)
+        pool.extend(self.pool[table.first : table.first + table.numbers])
+        move_axis_table(table, first)
 
     def update_volumetric(self, volumetric: Volumetric) -> None:
         """Take new data of one volumetric compensation, which is switched off for that without motion.
@@ -185,8 +192,8 @@ class Runtime:
         others = (one for one in self.machine.volumetric if one.index != index)
         machine = replace(self.machine, volumetric=tuple(sorted((*others, volumetric), key=lambda one: one.index)))
         after, pool = compile_tables(machine, self.tables.cycle_time)
-        for old, new in zip(self.tables.axis, after.axis, strict=True):
-            keep_declared(old, new)
+        for kept in range(after.axis_count):
+            self._keep_axis(after, pool, kept)
         adopt_volumetric(self.tables.volumetric[index], after.volumetric[index], self.state.volumetric[index])
         self.outputs.volumetric[index].active = False
         self.machine, self.tables, self.pool = machine, after, pool

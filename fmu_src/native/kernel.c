@@ -887,6 +887,12 @@ static bool friction_fits(const double *pool, const FrictionTable *table, int32_
  * cycles of lr_param.n_backlash_cyc; turning again midway turns round where it is.
  */
 
+/* Return the input of the compensation; `added`: what stands before it besides the setpoint. */
+static double leadscrew_input(const LeadscrewTable *table, double setpoint, double added)
+{
+    return table->without_other ? setpoint : setpoint + added;
+}
+
 /* Return −Δ at a position where a reversal stands. */
 static double leadscrew_at(const double *pool, const LeadscrewTable *table, LeadscrewState *state, double position)
 {
@@ -932,17 +938,19 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
     return leadscrew_at(pool, table, state, position);
 }
 
-/* Go on with another table; a reversal that is under way stays as far as it is.
+/* Go on with another table; a reversal that is under way stays as far as it is, another input is no motion.
  *
- * `direction`: of the axis' last motion, 0 before any. It counts where there was no table, positive before any.
+ * Where there was no table the direction of the axis' last motion counts, positive before any.
  */
 static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *after, LeadscrewState *state,
-        int32_t direction)
+        const AxisMotion *motion, double added)
 {
     forget(&state->lookup);
     if (before->reversal_cycles == 0) {
         state->started = false;
-        state->backward = direction < 0;
+        state->backward = motion->direction < 0;
+    } else if (before->without_other != after->without_other) {
+        state->counted = leadscrew_input(after, motion->setpoint, added);
     }
     state->reversal_step = mapped_step(state->reversal_step, before->reversal_cycles, after->reversal_cycles);
 }
@@ -1096,11 +1104,11 @@ static bool temperature_fits(const TemperatureTable *table)
 
 /* Return what a kind adds to the setpoint or the current of an axis at full weight.
  *
- * `position`: the setpoint with all that was added before.
+ * `added`: to the setpoint before the leadscrew.
  */
 static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis,
-        double position, double cycle_time)
+        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis, double added,
+        double cycle_time)
 {
     if (kind == CROSS) {
         return cross_value(pool, &tables->cross, &states->cross, motion);
@@ -1115,9 +1123,7 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
         return temperature_value(&tables->temperature, &states->temperature, motion->axis[axis].setpoint);
     }
     if (kind == LEADSCREW) {
-        if (tables->leadscrew.without_other) {
-            position = motion->axis[axis].setpoint;
-        }
+        double position = leadscrew_input(&tables->leadscrew, motion->axis[axis].setpoint, added);
         return leadscrew_value(pool, &tables->leadscrew, &states->leadscrew, position);
     }
     if (kind == BACKLASH) {
@@ -1129,10 +1135,14 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
 
 /* Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0. */
 static double settled_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const Motion *motion, int32_t axis)
+        CompensationStates *states, const Motion *motion, int32_t axis, double added)
 {
     if (kind == LEADSCREW) {
-        return leadscrew_at(pool, &tables->leadscrew, &states->leadscrew, states->leadscrew.counted);
+        double position = leadscrew_input(&tables->leadscrew, motion->axis[axis].setpoint, added);
+        if (!states->leadscrew.started) {
+            begin_leadscrew(&tables->leadscrew, &states->leadscrew, position);
+        }
+        return leadscrew_at(pool, &tables->leadscrew, &states->leadscrew, position);
     }
     if (kind == BACKLASH) {
         return backlash_at(&tables->backlash, &states->backlash);
@@ -1189,16 +1199,16 @@ static void adopt_inputs(const CompensationTables *before, const CompensationTab
     adopt_temperature(&before->temperature, &after->temperature, &given->temperature);
 }
 
-/* Make the state of a kind fit its new table; `direction`: of the axis' last motion, 0 before any. */
+/* Make the state of a kind fit its new table; `added`: to the setpoint before the leadscrew. */
 static void adopt_compensation(int32_t kind, const CompensationTables *before, const CompensationTables *after,
-        CompensationStates *states, int32_t direction)
+        CompensationStates *states, const AxisMotion *motion, double added)
 {
     if (kind == CROSS) {
         adopt_cross(&states->cross);
     } else if (kind == CROSSTALK) {
         adopt_crosstalk(&states->crosstalk);
     } else if (kind == LEADSCREW) {
-        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew, direction);
+        adopt_leadscrew(&before->leadscrew, &after->leadscrew, &states->leadscrew, motion, added);
     } else if (kind == BACKLASH) {
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
@@ -2527,19 +2537,19 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
     const SwitchTable *switching = &table->switching[kind];
     SwitchState *own = &axis->switching[kind];
     double value = 0.0;
+    if (kind == LEADSCREW) {
+        axis->added = correction + axis->shift.before.now;
+    }
     if (switching->configured) {
-        double position = state->motion.axis[i].setpoint;
         if (has_inputs(kind)) {
-            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation, position);
+            double setpoint = state->motion.axis[i].setpoint;
+            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation, setpoint);
             if (axis->started) {
                 blend_in(switching, own, own->weight * lost);
             }
         }
-        if (kind == LEADSCREW) {
-            position = position + (correction + axis->shift.before.now);
-        }
         value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation,
-                &state->motion, i, position, tables->cycle_time);
+                &state->motion, i, axis->added, tables->cycle_time);
     }
     double contribution = contribution_of(switching, own, value);
     if (!axis->settled && kind < FRICTION) {
@@ -2644,6 +2654,20 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
     return 0;
 }
 
+/* Tell whether a compensation that is off will be on in one step, so that its values have to come in softly. */
+static bool comes_on_at_once(const SwitchTable *table, const SwitchState *own, const State *state)
+{
+    if (!(table->configured && table->cycles == 1 && own->step == 0 && own->granted)) {
+        return false;
+    }
+    for (int32_t k = 0; k < table->needs; k++) {
+        if (!state->axis[table->need[k]].referenced) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Let what an axis activated at the start count for the next update too, and what was dropped go on running out. */
 void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
 {
@@ -2675,15 +2699,24 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
         double weight = own->weight;
         double value = 0.0;
         if (weight > 0.0) {
-            value = settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i);
+            value = weight
+                    * settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i,
+                    axis->added);
         }
         adopt_switch(&before->switching[kind], switching, own, given->enable[kind]);
-        int32_t direction = state->motion.axis[i].direction;
-        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation, direction);
-        if (weight > 0.0 && switching->configured) {
-            value -= settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i);
+        adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation,
+                &state->motion.axis[i], axis->added);
+        if (axis->started && switching->configured) {
+            if (comes_on_at_once(switching, own, state)) {
+                own->step = 1;
+                own->weight = 1.0;
+                weight = 1.0;
+            }
+            value -= weight
+                    * settled_value(kind, after_pool, &after->compensation, &axis->compensation, &state->motion, i,
+                    axis->added);
         }
-        blend_in(switching, own, weight * value);
+        blend_in(switching, own, value);
     }
     adopt_inputs(&before->compensation, &after->compensation, &given->compensation);
     adopt_shift(before->shift_cycles, after->shift_cycles, &axis->shift);

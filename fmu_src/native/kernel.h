@@ -476,6 +476,7 @@ typedef struct {
     bool released;  /* the input in the last cycle */
     int32_t error;  /* stays until reset */
     bool stop_request;  /* stays until reset, or until a volumetric compensation is switched on again */
+    double added;  /* to the setpoint before the leadscrew, in the last cycle */
     double volumetric_correction;  /* of all volumetric compensations, this cycle */
     double volumetric_shift;  /* what they have absorbed */
     ShiftState shift;

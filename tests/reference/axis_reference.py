@@ -214,6 +214,11 @@ class Rest:
             self.amount, self.walk = self.value + difference, Walk(cycles)
 
 
+def _alone(screw: Any) -> bool | None:
+    """Tell whether a leadscrew's position is the setpoint alone (P-COMP-00057); None: there is no table."""
+    return screw and screw.without_other_compensations
+
+
 class AxisReference:
     """One axis with what it remembers."""
 
@@ -356,7 +361,12 @@ class AxisReference:
         """Return a value where the axis stands when an update comes; a current is not blended."""
         if kind == "friction":
             return 0.0
-        return self._leadscrew(moved=True) if kind == "leadscrew" else self._value(kind, axes)
+        return self._value(kind, axes)
+
+    def _comes_at_once(self, kind: str, axes: dict[int, AxisReference]) -> bool:
+        """Tell whether a compensation that had no table is on after a single step: then its values come in softly."""
+        on = self.switches[kind].granted and all(axes[number].row.referenced for number in self.needs(kind))
+        return on and self.switches[kind].walk.length == 1
 
     def _begin_again(self, kind: str) -> None:
         """Begin with a table where there was none: the last motion of the axis says the direction of its screw."""
@@ -381,13 +391,12 @@ class AxisReference:
             self.backlash_walk.towards(self.direction == (-1 if one.mode == 1 else 1))
 
     def _screw_position(self) -> float:
-        alone = self.compensations["leadscrew"].without_other_compensations
-        return self.row.setpoint if alone else self.screw_input
+        return self.row.setpoint if _alone(self.compensations["leadscrew"]) else self.screw_input
 
-    def _leadscrew(self, *, moved: bool = False) -> float:
-        """Return −Δ; ``moved``: at the place of the last motion, for what comes after it is standstill."""
+    def _leadscrew(self) -> float:
+        """Return −Δ."""
         screw = self.compensations["leadscrew"]
-        position = self.screw_motion.place if moved else self._screw_position()
+        position = self._screw_position()
         positive, negative = leadscrew_errors(screw, self.axis, position)
         return -(negative + self.screw_walk.weight * (positive - negative))
 
@@ -413,7 +422,7 @@ class AxisReference:
         before = {}
         for kind in self.compensations:
             weight = self.switches[kind].walk.weight
-            before[kind] = (weight, self.blending(kind), self._standing(kind, axes) if weight else 0.0)
+            before[kind] = (weight, self.blending(kind), weight * self._standing(kind, axes) if weight else 0.0)
         had = self.compensations
         self.axis, self.friction.axis, self.compensations = axis, axis, new
         self.shift.stretch(self.longest)
@@ -425,16 +434,23 @@ class AxisReference:
                 switch.drop()
             else:
                 cycles = self.blending(kind)
+                switch.manual = new[kind].manual_activation
                 if kind not in had:
-                    switch.come_back(self.row.enable[kind])
                     self._begin_again(kind)
+                if kind == "leadscrew" and _alone(had.get(kind)) != _alone(new[kind]):
+                    self.screw_motion.place = self._screw_position()
+                if kind not in had:
+                    if not switch.manual:
+                        switch.come_back(self.row.enable[kind])
                 switch.walk.stretch(new[kind].n_cycles)
+                if kind not in had and self._comes_at_once(kind, axes):
+                    weight = switch.walk.step = 1
             if kind == "friction":
                 continue
             if kind in new:
                 self.rests[kind].stretch(cycles)
-                value -= self._standing(kind, axes) if weight else 0.0
-            self.rests[kind].absorb(weight * value, cycles)
+                value -= weight * self._standing(kind, axes) if weight else 0.0
+            self.rests[kind].absorb(value, cycles)
 
 
 class Reference:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -197,9 +197,7 @@ def _updated(rng: np.random.Generator, old: Any, of: Axis, numbers: list[int], s
         "temperature": lambda: temperature(rng),
         "backlash": lambda: Backlash(float(rng.uniform(-0.05, 0.05)), int(rng.integers(1, 3))),
     }
-    new = makers[old.kind]()
-    kept = {field.name for field in fields(new)} & {"manual_activation", "without_other_compensations"}
-    return replace(new, **{name: getattr(old, name) for name in kept})
+    return makers[old.kind]()
 
 
 def course(rng: np.random.Generator, cycles: int, of: Axis) -> Course:

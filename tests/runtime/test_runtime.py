@@ -1,6 +1,7 @@
 """A machine in operation: the clock, snapshots, updates, and what two of them have in common: nothing."""
 
 import copy
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -467,7 +468,7 @@ class TestUpdate:
 
     @pytest.mark.parametrize(("last", "column"), [(0.0, 0.25), (1.0, 0.25), (-1.0, -0.5)])
     @pytest.mark.parametrize("dropped", [False, True])
-    def test_a_leadscrew_table_that_comes_acts_for_the_direction_of_the_last_motion(
+    def test_a_leadscrew_table_that_comes_acts_softly_for_the_direction_of_the_last_motion(
         self, last: float, column: float, dropped: bool
     ) -> None:
         screw = Leadscrew((0.0,), (-0.25,), (0.5,))
@@ -480,9 +481,30 @@ class TestUpdate:
             runtime.inputs.axis[0].setpoint = setpoint
             runtime.cycle()
         runtime.update(with_table)
-        for _ in range(10):
+        for k in range(1, 11):
             runtime.cycle()
-            assert runtime.outputs.axis[0].contribution[LEADSCREW] == column
+            come = math.sin(math.pi / 2 * min(k / 6, 1.0)) ** 2
+            assert runtime.outputs.axis[0].active[LEADSCREW]
+            assert runtime.outputs.axis[0].contribution[LEADSCREW] == pytest.approx(come * column, abs=1e-15)
+
+    def test_a_leadscrew_that_gets_another_input_moves_nothing_at_once(self) -> None:
+        """P-COMP-00057 changes: Δ is taken at the setpoint alone, 10 instead of 10.5; 0.1 a mm for 6 cycles."""
+        screw = Leadscrew((0.0, 100.0), (0.0, 10.0), (1.0, 11.0), without_other_compensations=False)
+        cross = Cross(2, (0.0,), (0.5,))
+
+        def machine(screw: Leadscrew) -> Machine:
+            return Machine((Axis(1, "X", backlash_cycles=6, leadscrew=screw, cross=cross), Axis(2, "Y")))
+
+        runtime = Runtime(machine(screw))
+        runtime.inputs.axis[0].setpoint = 10.0
+        for _ in range(3):
+            runtime.cycle()
+        assert runtime.outputs.axis[0].contribution[LEADSCREW] == -1.05
+        runtime.update(machine(replace(screw, without_other_compensations=True)))
+        for k in range(1, 11):
+            runtime.cycle()
+            rest = math.cos(math.pi / 2 * min(k / 6, 1.0)) ** 2
+            assert runtime.outputs.axis[0].contribution[LEADSCREW] == pytest.approx(-1.0 - 0.05 * rest, abs=1e-14)
 
     def test_a_current_that_comes_back_has_nothing_waiting_from_before(self) -> None:
         with_table = Machine((Axis(1, "X", friction=Friction((0.0,), (1.0,), delay_cycles=3)),))
