@@ -18,7 +18,7 @@ from axcomp.engine import Engine
 from axcomp.fmu import write_image
 from axcomp.kinds import Cross
 from axcomp.lists import write_machine
-from axcomp.model import Axis, Machine
+from axcomp.model import Axis, Machine, ModuloRange
 from axcomp.native import HEADER_BEFORE_CHECK
 
 REFUSED = 902
@@ -126,6 +126,19 @@ def test_an_axis_with_other_sizes_keeps_its_lists(
     axis = next(k for k, error in enumerate(errors, start=1) if error)
     assert len(texts) == 1
     assert f"axis {axis} keeps its old lists: error {errors[axis - 1]}" in texts[0]
+
+
+def test_a_kept_axis_folds_its_master_as_its_own_table_says(native_fmu: Path, tmp_path: Path) -> None:
+    """Y keeps its plane over C, which gets another modulo range in the same update."""
+    new = resized("plane")
+    new = Machine((*new.axes[:2], replace(new.axes[2], modulo=ModuloRange(0.0, 90.0))))
+    rows = [{"X.setpoint": 5.0 * k, "C.setpoint": 7.0 * k} for k in range(100)]
+    found = in_child(on_the_move, native_fmu, image(new, tmp_path), rows, 40, 0.001)
+    engine = Engine(three_axes())
+    expected = [engine.step(row) for row in rows[:40]]
+    assert engine.runtime.update(new) == {"Y-ACHSE": 110640}
+    expected += [engine.step(row) for row in rows[40:]]
+    assert found == expected
 
 
 X, Y, C = three_axes().axes
