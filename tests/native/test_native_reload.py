@@ -131,7 +131,7 @@ def test_an_axis_with_other_sizes_keeps_its_lists(
 def test_a_kept_axis_folds_its_master_as_its_own_table_says(native_fmu: Path, tmp_path: Path) -> None:
     """Y keeps its plane over C, which gets another modulo range in the same update."""
     new = resized("plane")
-    new = Machine((*new.axes[:2], replace(new.axes[2], modulo=ModuloRange(0.0, 90.0))))
+    new = Machine((*new.axes[:2], replace(new.axes[2], modulo=ModuloRange(0.0, 270.0))))
     rows = [{"X.setpoint": 5.0 * k, "C.setpoint": 7.0 * k} for k in range(100)]
     found = in_child(on_the_move, native_fmu, image(new, tmp_path), rows, 40, 0.001)
     engine = Engine(three_axes())
