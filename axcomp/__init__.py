@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .lists import read_machine, write_machine
     from .model import Machine
 
+__version__ = "0.2.0"
 __all__ = ["Engine", "Machine", "Result", "read_machine", "write_machine"]
 
 _MODULES = {"Engine": "engine.engine", "Result": "engine.engine", "Machine": "model.machine", "read_machine": "lists"}
@@ -24,3 +25,7 @@ def __getattr__(name: str) -> Any:
     if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f".{_MODULES[name]}", __name__), name)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

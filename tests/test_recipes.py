@@ -162,7 +162,7 @@ def test_a_new_spelling_is_taken_and_a_typo_with_a_warning(tmp_path: Path) -> No
 def test_a_new_format_is_converted_from_and_to(tmp_path: Path) -> None:
     checkout = Checkout(tmp_path)
     checkout.carry_out(NEW_FORMAT)
-    convert = ("-m", "axcomp.cli", "convert")
+    convert = ("-m", "axcomp", "convert")
     checkout.run(*convert, "models/three_axis", "--axis", "Y", "--kind", "leadscrew", "--to", "columns",
                  "--output", "y.txt")  # fmt: skip
     text = (tmp_path / "y.txt").read_text(encoding="utf-8")

@@ -11,6 +11,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
 
+from .. import __version__
+
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
     "check": "check the lists of a machine",
@@ -50,6 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
     )
+    parser.add_argument("--version", action="version", version=f"axcomp {__version__}")
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
     missing = [name for name, packages in EXTRA.items() if not all(map(find_spec, packages))]

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
         generation_date as generation_date,
         write_fmu as write_fmu,
     )
-    from .content import PACKAGE as PACKAGE, Built as Built, version as version
+    from .content import PACKAGE as PACKAGE, Built as Built
     from .description import Description as Description, model_description as model_description
     from .instance import Instance as Instance
     from .native_package import (
@@ -34,7 +34,7 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         archive="BuildError content_guid file_bytes generation_date write_fmu",
-        content="Built PACKAGE version",
+        content="Built PACKAGE",
         description="Description model_description",
         instance="Instance",
         native_package="HEADERS IMAGE NoCompilerError SOURCES package_native write_image",

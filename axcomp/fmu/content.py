@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import os
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
+from .. import __version__
 from ..interface import Naming, Variable, identifier, variables_of
 from ..kinds import CompileError
 from ..lists import Finding, Reading, TypeName, read_machine
@@ -74,7 +73,7 @@ def read_content(
         name=NAME,
         text=f"Axis compensations of {names}",
         step_size=cycle_time,
-        version=version(),
+        version=__version__,
         naming=naming,
         generated=generation_date(),
     )
@@ -86,13 +85,3 @@ def output_path(output: str | os.PathLike[str], name: str) -> Path:
     """Return the file to write: in a folder it has a name of its own."""
     path = Path(output)
     return path / name if path.is_dir() else path
-
-
-def version() -> str:
-    """Return the version of this package: of the checkout it lies in, else of the installed one."""
-    project = PACKAGE.parent / "pyproject.toml"
-    if project.is_file():
-        values = tomllib.loads(project.read_text(encoding="utf-8")).get("project", {})
-        if values.get("name") == PACKAGE.name:
-            return str(values["version"])
-    return importlib.metadata.version(PACKAGE.name)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..fmu import PACKAGE, BuildError, Description, file_bytes, generation_date, version, write_python_fmu
+from .. import __version__
+from ..fmu import PACKAGE, BuildError, Description, file_bytes, generation_date, write_python_fmu
 from ..interface import Variable, identifier
 from ..model import fmu_sources
 from . import variables as declared
@@ -63,7 +64,7 @@ def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str],
         name="plant",
         text="Drives, friction and geometric errors of a machine",
         step_size=STEP_SIZE,
-        version=version(),
+        version=__version__,
         generated=generation_date(),
         capabilities={"needsExecutionTool": external_tool},
     )

@@ -439,9 +439,8 @@ class AxisReference:
                     self._begin_again(kind)
                 if kind == "leadscrew" and _alone(had.get(kind)) != _alone(new[kind]):
                     self.screw_motion.place = self._screw_position()
-                if kind not in had:
-                    if not switch.manual:
-                        switch.come_back(self.row.enable[kind])
+                if kind not in had and not switch.manual:
+                    switch.come_back(self.row.enable[kind])
                 switch.walk.stretch(new[kind].n_cycles)
                 if kind not in had and self._comes_at_once(kind, axes):
                     weight = switch.walk.step = 1

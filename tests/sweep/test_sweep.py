@@ -229,7 +229,7 @@ def test_an_fmu_has_no_lists_to_vary(tmp_path: Path) -> None:
 def test_killed_half_way_it_finishes_the_rest_only_with_the_same_bytes(tmp_path: Path) -> None:
     spec_of(tmp_path, duration=5.0, vary={"scale Y.leadscrew": {"from": 0, "to": 2, "count": 30}},
             runs=[{}, {"input Q.setpoint": 0}])  # fmt: skip
-    command = [sys.executable, "-m", "axcomp.cli", "sweep", "sweep.json", "--output"]
+    command = [sys.executable, "-m", "axcomp", "sweep", "sweep.json", "--output"]
 
     def sweep(output: str, **options):
         return subprocess.Popen(
