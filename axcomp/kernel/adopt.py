@@ -5,7 +5,7 @@ Only a volumetric compensation switches off, without motion; an automatic one th
 
 from __future__ import annotations
 
-from .compensations import KINDS, adopt_compensation, adopt_inputs, move_compensation, settled_value
+from .compensations import KINDS, adopt_compensation, move_compensation, settled_value
 from .record import Vec
 from .records import ERROR_UPDATE, AxisInputs, AxisTable, Outputs, State, Tables
 from .shift import adopt_shift
@@ -50,13 +50,12 @@ def adopt_axis(
         value = 0.0
         if weight > 0.0:
             value = settled_value(kind, before_pool, before.compensation, axis.compensation, state.motion, i)
-        adopt_switch(before.switching[kind], switching, own, given.enable[kind])
+        adopt_switch(before.switching[kind], switching, own, given.wanted[kind])
         direction = state.motion.axis[i].direction
         adopt_compensation(kind, before.compensation, after.compensation, axis.compensation, direction)
         if weight > 0.0 and switching.configured:
             value -= settled_value(kind, after_pool, after.compensation, axis.compensation, state.motion, i)
         blend_in(switching, own, weight * value)
-    adopt_inputs(before.compensation, after.compensation, given.compensation)
     adopt_shift(before.shift_cycles, after.shift_cycles, axis.shift)
 
 

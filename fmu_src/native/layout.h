@@ -2,7 +2,7 @@
 #ifndef AXCOMP_LAYOUT_H
 #define AXCOMP_LAYOUT_H
 
-#define AXCOMP_LAYOUT 0x0cd68aa8u  /* of the records in images and states */
+#define AXCOMP_LAYOUT 0xee6ef7bbu  /* of the records in images and states */
 #define AXCOMP_ON_INSTANT 0.01  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX 1000.0  /* s; cycle times are shorter */
 
