@@ -65,10 +65,10 @@ def trajectory(cycles: int, start: int = 0) -> list[dict[str, Any]]:
             row[f"{name}.velocity"] = amplitude * omega * math.cos(omega * t)
             row[f"{name}.acceleration"] = -amplitude * omega * omega * math.sin(omega * t)
             row[f"{name}.actual_position"] = row[f"{name}.setpoint"] - 0.1
-        row["X.leadscrew.enable"] = not 40 <= k < 60
-        row["Y_ACHSE.referenced"] = not 80 <= k < 90
-        row["Y_ACHSE.friction.enable"] = k % 70 > 5
+        row["X.leadscrew.switch"] = -1 if 40 <= k < 60 else k // 30 % 2
+        row["Y_ACHSE.unreferenced"] = 80 <= k < 90
+        row["Y_ACHSE.friction.switch"] = 1 if k % 70 > 5 else -1
         row["C.no_move"] = k % 50 > 30
-        row["C.leadscrew.enable"] = k % 64 > 15
+        row["C.leadscrew.switch"] = 0 if k % 64 > 15 else -1
         rows.append(row)
     return rows

@@ -74,7 +74,7 @@ VARIABLES = {
     "X.velocity": (65, "Real", "input", "continuous", "mm/s", "0.0"),
     "X.acceleration": (66, "Real", "input", "continuous", "mm/s2", "0.0"),
     "X.actual_position": (67, "Real", "input", "continuous", "mm", "0.0"),
-    "X.referenced": (68, "Boolean", "input", "discrete", None, "true"),
+    "X.unreferenced": (68, "Boolean", "input", "discrete", None, "false"),
     "X.fault": (69, "Boolean", "input", "discrete", None, "false"),
     "X.no_move": (70, "Boolean", "input", "discrete", None, "false"),
     "X.released": (71, "Boolean", "input", "discrete", None, "false"),
@@ -86,33 +86,33 @@ VARIABLES = {
     "X.current": (77, "Real", "output", "continuous", None, None),
     "X.stop_request": (78, "Boolean", "output", "discrete", None, None),
     "X.volumetric.correction": (79, "Real", "output", "continuous", "mm", None),
-    "X.cross.enable": (80, "Boolean", "input", "discrete", None, "true"),
+    "X.cross.switch": (80, "Integer", "input", "discrete", None, "0"),
     "X.cross.active": (81, "Boolean", "output", "discrete", None, None),
     "X.cross.correction": (82, "Real", "output", "continuous", "mm", None),
-    "X.plane.enable": (84, "Boolean", "input", "discrete", None, "false"),
+    "X.plane.switch": (84, "Integer", "input", "discrete", None, "0"),
     "X.plane.active": (85, "Boolean", "output", "discrete", None, None),
     "X.plane.correction": (86, "Real", "output", "continuous", "mm", None),
-    "X.crosstalk.enable": (88, "Boolean", "input", "discrete", None, "true"),
+    "X.crosstalk.switch": (88, "Integer", "input", "discrete", None, "0"),
     "X.crosstalk.active": (89, "Boolean", "output", "discrete", None, None),
     "X.crosstalk.correction": (90, "Real", "output", "continuous", "mm", None),
-    "X.leadscrew.enable": (92, "Boolean", "input", "discrete", None, "true"),
+    "X.leadscrew.switch": (92, "Integer", "input", "discrete", None, "0"),
     "X.leadscrew.active": (93, "Boolean", "output", "discrete", None, None),
     "X.leadscrew.correction": (94, "Real", "output", "continuous", "mm", None),
-    "X.friction.enable": (96, "Boolean", "input", "discrete", None, "true"),
+    "X.friction.switch": (96, "Integer", "input", "discrete", None, "0"),
     "X.friction.active": (97, "Boolean", "output", "discrete", None, None),
-    "X.temperature.enable": (100, "Boolean", "input", "discrete", None, "true"),
+    "X.temperature.switch": (100, "Integer", "input", "discrete", None, "0"),
     "X.temperature.active": (101, "Boolean", "output", "discrete", None, None),
     "X.temperature.correction": (102, "Real", "output", "continuous", "mm", None),
     "X.temperature.offset": (103, "Real", "input", "continuous", "mm", "0.0"),
     "X.temperature.coefficient": (104, "Real", "input", "continuous", None, "0.0"),
-    "X.backlash.enable": (108, "Boolean", "input", "discrete", None, "true"),
+    "X.backlash.switch": (108, "Integer", "input", "discrete", None, "0"),
     "X.backlash.active": (109, "Boolean", "output", "discrete", None, None),
     "X.backlash.correction": (110, "Real", "output", "continuous", "mm", None),
     "C.setpoint": (256, "Real", "input", "continuous", "deg", "0.0"),
     "C.velocity": (257, "Real", "input", "continuous", "deg/s", "0.0"),
     "C.acceleration": (258, "Real", "input", "continuous", "deg/s2", "0.0"),
     "C.actual_position": (259, "Real", "input", "continuous", "deg", "0.0"),
-    "C.referenced": (260, "Boolean", "input", "discrete", None, "true"),
+    "C.unreferenced": (260, "Boolean", "input", "discrete", None, "false"),
     "C.fault": (261, "Boolean", "input", "discrete", None, "false"),
     "C.no_move": (262, "Boolean", "input", "discrete", None, "false"),
     "C.released": (263, "Boolean", "input", "discrete", None, "false"),
@@ -121,14 +121,14 @@ VARIABLES = {
     "C.correction": (266, "Real", "output", "continuous", "deg", None),
     "C.setpoint_shift": (267, "Real", "output", "continuous", "deg", None),
     "C.error": (268, "Integer", "output", "discrete", None, None),
-    "C.leadscrew.enable": (284, "Boolean", "input", "discrete", None, "true"),
+    "C.leadscrew.switch": (284, "Integer", "input", "discrete", None, "0"),
     "C.leadscrew.active": (285, "Boolean", "output", "discrete", None, None),
     "C.leadscrew.correction": (286, "Real", "output", "continuous", "deg", None),
-    "volumetric[0].enable": (2112, "Boolean", "input", "discrete", None, "true"),
+    "volumetric[0].switch": (2112, "Integer", "input", "discrete", None, "0"),
     "volumetric[0].no_move": (2113, "Boolean", "input", "discrete", None, "false"),
-    "volumetric[0].factor_x": (2114, "Real", "input", "continuous", None, "1.0"),
-    "volumetric[0].factor_y": (2115, "Real", "input", "continuous", None, "1.0"),
-    "volumetric[0].factor_z": (2116, "Real", "input", "continuous", None, "1.0"),
+    "volumetric[0].reduction_x": (2114, "Real", "input", "continuous", None, "0.0"),
+    "volumetric[0].reduction_y": (2115, "Real", "input", "continuous", None, "0.0"),
+    "volumetric[0].reduction_z": (2116, "Real", "input", "continuous", None, "0.0"),
     "volumetric[0].active": (2117, "Boolean", "output", "discrete", None, None),
 }
 """Variables of ``every_variable`` but those of Y and Z: reference, type, causality, variability, unit and start."""
@@ -162,36 +162,40 @@ def two_axes() -> Machine:
 _COMMANDS = "reset program_end reload"
 _X_SWITCH = f"{_COMMANDS} X.setpoint X.velocity X.no_move X.released"
 _Y_SWITCH = f"{_COMMANDS} Y.setpoint Y.velocity Y.no_move Y.released"
-_Y_CROSS = f"{_Y_SWITCH} Y.cross.enable X.referenced X.setpoint"
-_Y_CROSSTALK = f"{_Y_SWITCH} Y.crosstalk.enable X.referenced X.setpoint X.acceleration X.velocity"
-_Y_ALL = f"{_Y_CROSS} {_Y_CROSSTALK} Y.referenced Y.leadscrew.enable"
+_Y_CROSS = f"{_Y_SWITCH} Y.cross.switch X.unreferenced X.setpoint"
+_Y_CROSSTALK = f"{_Y_SWITCH} Y.crosstalk.switch X.unreferenced X.setpoint X.acceleration X.velocity"
+_Y_ALL = f"{_Y_CROSS} {_Y_CROSSTALK} Y.unreferenced Y.leadscrew.switch"
 
 DEPENDENCIES = {
-    "X.corrected_setpoint": f"{_X_SWITCH} X.referenced X.leadscrew.enable",
-    "X.display_position": f"{_X_SWITCH} X.referenced X.leadscrew.enable X.actual_position",
-    "X.correction": f"{_X_SWITCH} X.referenced X.leadscrew.enable",
-    "X.setpoint_shift": f"{_X_SWITCH} X.referenced X.leadscrew.enable",
-    "X.error": f"{_COMMANDS} X.setpoint X.velocity X.acceleration X.actual_position",
-    "X.current": f"{_X_SWITCH} X.friction.enable X.acceleration",
-    "X.leadscrew.active": f"{_X_SWITCH} X.referenced X.leadscrew.enable",
-    "X.leadscrew.correction": f"{_X_SWITCH} X.referenced X.leadscrew.enable",
-    "X.friction.active": f"{_X_SWITCH} X.friction.enable",
+    "X.corrected_setpoint": f"{_X_SWITCH} X.unreferenced X.leadscrew.switch",
+    "X.display_position": f"{_X_SWITCH} X.unreferenced X.leadscrew.switch X.actual_position",
+    "X.correction": f"{_X_SWITCH} X.unreferenced X.leadscrew.switch",
+    "X.setpoint_shift": f"{_X_SWITCH} X.unreferenced X.leadscrew.switch",
+    "X.error": f"{_COMMANDS} X.setpoint X.velocity X.acceleration X.actual_position "
+    "X.leadscrew.switch X.friction.switch",
+    "X.current": f"{_X_SWITCH} X.friction.switch X.acceleration",
+    "X.leadscrew.active": f"{_X_SWITCH} X.unreferenced X.leadscrew.switch",
+    "X.leadscrew.correction": f"{_X_SWITCH} X.unreferenced X.leadscrew.switch",
+    "X.friction.active": f"{_X_SWITCH} X.friction.switch",
     "Y.corrected_setpoint": _Y_ALL,
     "Y.display_position": f"{_Y_ALL} Y.actual_position",
     "Y.correction": _Y_ALL,
     "Y.setpoint_shift": _Y_ALL,
-    "Y.error": f"{_COMMANDS} Y.setpoint Y.velocity Y.acceleration Y.actual_position",
-    "Y.cross.active": f"{_Y_SWITCH} Y.cross.enable X.referenced",
+    "Y.error": f"{_COMMANDS} Y.setpoint Y.velocity Y.acceleration Y.actual_position Y.cross.switch Y.crosstalk.switch "
+    "Y.leadscrew.switch",
+    "Y.cross.active": f"{_Y_SWITCH} Y.cross.switch X.unreferenced",
     "Y.cross.correction": _Y_CROSS,
-    "Y.crosstalk.active": f"{_Y_SWITCH} Y.crosstalk.enable X.referenced",
+    "Y.crosstalk.active": f"{_Y_SWITCH} Y.crosstalk.switch X.unreferenced",
     "Y.crosstalk.correction": _Y_CROSSTALK,
-    "Y.leadscrew.active": f"{_Y_SWITCH} Y.referenced Y.leadscrew.enable",
+    "Y.leadscrew.active": f"{_Y_SWITCH} Y.unreferenced Y.leadscrew.switch",
     "Y.leadscrew.correction": _Y_ALL,
 }
 """Inputs that the outputs of ``two_axes`` are computed from."""
 
-_MEMBERS = " ".join(f"{axis}.{name}" for axis in "XYZ" for name in ("setpoint", "velocity", "referenced", "fault"))
-_OF_VOLUMETRIC = " ".join(f"volumetric[0].{name}" for name in ("enable", "no_move", "factor_x", "factor_y", "factor_z"))
+_MEMBERS = " ".join(f"{axis}.{name}" for axis in "XYZ" for name in ("setpoint", "velocity", "unreferenced", "fault"))
+_OF_VOLUMETRIC = " ".join(
+    f"volumetric[0].{name}" for name in ("switch", "no_move", "reduction_x", "reduction_y", "reduction_z")
+)
 VOLUMETRIC_DEPENDENCIES = dict.fromkeys(
     ("volumetric[0].active", "X.stop_request", "X.volumetric.correction"),
     f"{_COMMANDS} tool_length {_MEMBERS} {_OF_VOLUMETRIC}",

@@ -40,8 +40,8 @@ assert read_machine("again").machine == reading.machine
 assert Table("X.toy").applied(reading.machine, 2.0).axes[0].toy == Toy(10.0, 40e-6, 4)
 
 variables = by_name(variables_of(reading.machine))
-assert {"X.toy.enable", "X.toy.active", "X.toy.correction"} <= set(variables)
-assert {"X.setpoint", "X.toy.enable", "X.referenced"} <= set(variables["X.toy.correction"].depends_on)
+assert {"X.toy.switch", "X.toy.active", "X.toy.correction"} <= set(variables)
+assert {"X.setpoint", "X.toy.switch", "X.unreferenced"} <= set(variables["X.toy.correction"].depends_on)
 assert "X.actual_position" not in variables["X.toy.correction"].depends_on
 assert len({one.reference for one in variables.values()}) == len(variables)
 

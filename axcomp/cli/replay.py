@@ -16,7 +16,7 @@ from ..model import machine_path
 _EPILOG = f"""\
 The trace has a row for each cycle (or a column time), names in its first row, and at least a setpoint and one output of
 the engine: X.correction, X.corrected_setpoint, X.current, X.leadscrew.correction … Velocity and acceleration, and the
-inputs that switch (X.cross.enable …), are taken if they are there; without them they follow from the setpoints.
+inputs that switch (X.cross.switch …), are taken if they are there; without them they follow from the setpoints.
 
 --map NAME=COLUMN[UNIT],… says what the columns are; those that are called as in the engine need no word. A unit may
 stand in the title too: SollX [mm]. There are m mm um nm 0.1um deg arcsec mdeg rad …, /s /min /s2, and bare factors.

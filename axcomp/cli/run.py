@@ -23,7 +23,7 @@ _ON_TIME = 1e-6
 """Share of a cycle by which the instants of the rows may be off."""
 
 EPILOG = """\
-PROGRAM.csv has one row for each cycle. Its columns are inputs as the FMU names them (X.setpoint, X.cross.enable, …),
+PROGRAM.csv has one row for each cycle. Its columns are inputs as the FMU names them (X.setpoint, X.cross.switch, …),
 and, if there are any, the time in s and the NC commands of the row. An empty cell repeats the one above it.
 
   time,X.setpoint,command

@@ -36,7 +36,7 @@ SPEC is a TOML file, or JSON with the same keys; paths count from where it lies:
   "achskw1.lis: kw.crosscomp2.n_cycles" = [0, 10, 20]
   "scale achskw1.lis: kw.crosscomp2.table[][].correction" = [0.9, 1.0, 1.1]
   "scale Y.leadscrew" = { from = 0, to = 1, count = 5 }
-  "input Z.cross.enable" = [true, false]
+  "input Z.cross.switch" = [1, -1]
   "scale input X.velocity" = [0.5, 1.0]
   "parameter cycle_time" = [0.001, 0.002]
 

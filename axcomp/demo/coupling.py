@@ -27,7 +27,7 @@ BATCH, RESULTS = "batch.pickle", "results.pickle"
 
 
 class Simulation(NamedTuple):
-    """Setpoints, velocities and accelerations of all axes, shape (cycles, 3 · axes), and inputs that are false."""
+    """Setpoints, velocities and accelerations of all axes, shape (cycles, 3 · axes), and switches that are off."""
 
     commands: Array
     off: tuple[str, ...]
@@ -68,10 +68,10 @@ class CoupledFmu:
         return Reals(self.fmu, [self.references[name] for name in names])
 
     def switch_off(self, names: Iterable[str]) -> None:
-        """Set Boolean inputs to false."""
+        """Set switches to −1."""
         references = [self.references[name] for name in names]
         if references:
-            self.fmu.setBoolean(references, [False] * len(references))
+            self.fmu.setInteger(references, [-1] * len(references))
 
     def close(self) -> None:
         """End the instance."""

@@ -106,9 +106,9 @@ def _commands(machine: Machine, trial: Trial) -> Array:
 
 
 def _disabled(machine: Machine, kinds: Sequence[str]) -> tuple[str, ...]:
-    names = [f"{name_of(axis)}.{kind}.enable" for axis in machine.axes for kind in axis.kinds if kind in kinds]
+    names = [f"{name_of(axis)}.{kind}.switch" for axis in machine.axes for kind in axis.kinds if kind in kinds]
     if VOLUMETRIC in kinds:
-        names += [f"volumetric[{volumetric.index}].enable" for volumetric in machine.volumetric]
+        names += [f"volumetric[{volumetric.index}].switch" for volumetric in machine.volumetric]
     return tuple(names)
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..interface import Naming, Slot, Value, Variable, by_name, identifier, slot_of, variables_of, with_causality
+from ..interface import Naming, Slot, Value, Variable, by_name, identifier, slot_of, variables_of, whole, with_causality
 from ..lists import Finding, TypeName, read_machine
 from ..model import CYCLE_TIME, Machine
 from ..native import CompiledTables, compiled_kernel, run_compiled
@@ -131,7 +131,9 @@ class Engine:
         """Set inputs by name; they are held until set again. KeyError with the known names for an unknown one."""
         for name, value in values.items():
             variable = self._input(name)
-            self._slot_of(variable).set(type(variable.start)(value))
+            self._slot_of(variable).set(
+                whole(float(value)) if variable.type == "Integer" else type(variable.start)(value)
+            )
 
     def get(self) -> dict[str, Value]:
         """Return all outputs of the last cycle by name."""
@@ -175,7 +177,7 @@ class Engine:
         cycles = _length({name: column for name, column in trajectory.items() if name != "time"})
         trajectory, said = self._completed(trajectory)
         given = [self._input(name) for name in trajectory if name not in ("time", COMMAND)]
-        columns = [np.asarray(trajectory[v.name]).astype(type(v.start)) for v in given]
+        columns = [_column(trajectory[v.name], v) for v in given]
         if not given:
             given = [next(variable for variable in self.variables if variable.causality == "input")]
             columns = [np.full(cycles, self._slot_of(given[0]).get())]
@@ -264,6 +266,12 @@ class Engine:
             known = ", ".join(v.name for v in with_causality(self.variables, "input"))
             raise KeyError(f"{name} is no input; the inputs are {known}")
         return variable
+
+
+def _column(values: ArrayLike, variable: Variable) -> NDArray[Any]:
+    if variable.type == "Integer":
+        return np.array([whole(value) for value in np.asarray(values, dtype=float).tolist()])
+    return np.asarray(values).astype(type(variable.start))
 
 
 def _length(columns: Mapping[str, ArrayLike]) -> int:

@@ -134,17 +134,17 @@ class NcControl:
         for kind, on in wanted.items():
             if kind in configured:
                 number = KINDS[kind].number
-                given.enable[number] = on
-                # Edges of the input are the commands: one that repeats the last needs its edge too.
-                state.switching[number].enable = not on
+                given.wanted[number] = 1 if on else -1
+                # Changes of the input are the commands: one that repeats the last needs its change too.
+                state.switching[number].wanted = -given.wanted[number]
 
     def _switch_volumetric(self, index: int, command: VolumetricSwitch) -> None:
         given, state = self._runtime.inputs.volumetric[index], self._runtime.state.volumetric[index]
-        given.enable = command.on
-        state.enable = not command.on
+        given.wanted = 1 if command.on else -1
+        state.wanted = -given.wanted
         self._hold(given, "no_move", command.no_move)
         for letter, factor in zip("xyz", command.factors, strict=True):
-            self._hold(given, f"factor_{letter}", factor)
+            self._hold(given, f"reduction_{letter}", 1.0 - factor)
 
     def _hold(self, record: Any, field: str, value: Any) -> None:
         self._held.append((record, field, getattr(record, field), value))

@@ -43,8 +43,8 @@ class InputFile:
     def sampled(self, cycle_time: float, duration: float | None = None) -> Columns:
         """Return a value a cycle: linear between the rows, after the last one held.
 
-        Without a duration there are as many cycles as the file has rows or its time has room for. Columns of zeros and
-        ones are not interpolated: what they switch comes with its row.
+        Without a duration there are as many cycles as the file has rows or its time has room for. Columns of −1, 0
+        and 1 are not interpolated: what they switch comes with its row.
         """
         rows = len(next(iter(self.columns.values())))
         at = np.arange(rows) * cycle_time if self.time is None else self.time - self.time[0]
@@ -55,7 +55,7 @@ class InputFile:
         exact = np.abs(at[held] - instants) <= 1e-6 * cycle_time
         found: Columns = {}
         for name, values in self.columns.items():
-            switches = np.isin(values, (0.0, 1.0)).all()
+            switches = np.isin(values, (-1.0, 0.0, 1.0)).all()
             found[name] = np.where(exact | switches, values[held], np.interp(instants, at, values))
         return found
 

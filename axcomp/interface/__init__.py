@@ -5,7 +5,7 @@ from __future__ import annotations
 from .errors import ERROR_CALL, ERRORS
 from .reference import PAGE, README, readme_with_section, reference_page
 from .slot import Slot, slot_in, steps_of
-from .variable import BLOCK, TYPE_NAMES, Value, Variable, with_causality
+from .variable import BLOCK, TYPE_NAMES, Value, Variable, whole, with_causality
 from .variables import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -51,5 +51,6 @@ __all__ = [
     "slot_of",
     "steps_of",
     "variables_of",
+    "whole",
     "with_causality",
 ]

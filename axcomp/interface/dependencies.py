@@ -16,9 +16,9 @@ Input = tuple[int | None, str]
 
 Inputs = frozenset[Input]
 
-COMMANDS_OF_VOLUMETRIC = ("enable", "no_move", "factor_x", "factor_y", "factor_z")
+COMMANDS_OF_VOLUMETRIC = ("switch", "no_move", "reduction_x", "reduction_y", "reduction_z")
 
-OF_MEMBERS = ("setpoint", "velocity", "referenced", "fault")
+OF_MEMBERS = ("setpoint", "velocity", "unreferenced", "fault")
 
 COMMANDS = ((None, "reset"), (None, "program_end"), (None, "reload"))
 
@@ -56,7 +56,8 @@ class Dependencies:
         if output == "current":
             return self._union(self._correction(kind) for kind in self._kinds("current"))
         if output == "error":
-            own = self._own("setpoint", "velocity", "acceleration", "actual_position").union(COMMANDS)
+            switches = [f"{kind.name}.switch" for kind in kinds_of(self.axis)]
+            own = self._own("setpoint", "velocity", "acceleration", "actual_position", *switches).union(COMMANDS)
             return own | self._volumetric()
         correction = self._union(self._correction(kind) for kind in self._kinds("setpoint")) | self._volumetric()
         if output == "corrected_setpoint":
@@ -92,10 +93,10 @@ class Dependencies:
 
     def _switch(self, kind: Kind[Any]) -> Inputs:
         """Return what decides whether a compensation is on; ``setpoint`` and ``velocity`` tell a standstill."""
-        own = self._own("setpoint", "velocity", "released", "no_move", f"{kind.name}.enable").union(COMMANDS)
+        own = self._own("setpoint", "velocity", "released", "no_move", f"{kind.name}.switch").union(COMMANDS)
         compensation = getattr(self.axis, kind.name)
         needed = () if compensation is None else kind.needs(compensation, self.axis)
-        return own.union((place, "referenced") for place in self._places(*needed))
+        return own.union((place, "unreferenced") for place in self._places(*needed))
 
     @staticmethod
     def _union(parts: Iterable[Inputs]) -> Inputs:

@@ -8,6 +8,7 @@ from ..kernel import (
     ERROR_LIMIT_UNDEFINED,
     ERROR_PROGRAM_END,
     ERROR_SINGULAR,
+    ERROR_SWITCH,
     ERROR_UPDATE,
 )
 from ..kinds import KINDS
@@ -17,6 +18,8 @@ ERROR_CALL = 903  # AXC-903
 ERRORS = {
     ERROR_INPUT: "An input of the axis is not a finite number; its outputs are held",
     ERROR_UPDATE: "The lists read by `reload` are refused, the old ones stay in force; the log says why",
+    ERROR_SWITCH: "A switch of the axis, or of a volumetric compensation of it, was neither -1, 0 nor 1: it commanded "
+    "nothing, what was commanded before holds",
     ERROR_CALL: "A call of the FMU could not be carried out; the log says why",
     ERROR_LIMIT_UNDEFINED: "A volumetric compensation cannot be switched on: the axis has no s_limit (P-AXIS-00525)",
     ERROR_LIMIT_EXCEEDED: "A volumetric correction was above the axis' s_limit; it is held, the compensation is off",

@@ -161,8 +161,4 @@ def _units(declaration: Declaration) -> str:
 def _start(declaration: Declaration) -> str:
     if declaration.causality == "output":
         return ""
-    if declaration.name.endswith(".enable"):
-        return "automatic activation"
-    if declaration.path.startswith("compensation."):
-        return "as listed"
     return str(declaration.start).lower() if isinstance(declaration.start, bool) else repr(declaration.start)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
@@ -64,6 +65,14 @@ class Variable:
     def type(self) -> str:
         """Name of the type in FMI."""
         return TYPE_NAMES[type(self.start)]
+
+
+INTEGER_MAX = 2**31 - 1
+
+
+def whole(value: float) -> int:
+    """Return the nearest integer of 32 bits; of what has none the largest, which is no value of a switch."""
+    return math.floor(value + 0.5) if abs(value) < INTEGER_MAX else INTEGER_MAX
 
 
 TYPE_NAMES = {float: "Real", int: "Integer", bool: "Boolean", str: "String"}

@@ -104,7 +104,7 @@ OF_AXIS = (
     Declaration(1, "velocity", "input", 0.0, "Setpoint velocity", VELOCITY),
     Declaration(2, "acceleration", "input", 0.0, "Setpoint acceleration", ACCELERATION),
     Declaration(3, "actual_position", "input", 0.0, "Measured position", POSITION),
-    Declaration(4, "referenced", "input", True, "The axis has its reference"),
+    Declaration(4, "unreferenced", "input", False, "The axis has no reference (yet)"),
     Declaration(5, "fault", "input", False, "The axis is in error"),
     Declaration(6, "no_move", "input", False, "What is switched now moves no axis: its value becomes setpoint_shift"),
     Declaration(7, "released", "input", False, "A rising edge gives the axis back: manual compensations off"),
@@ -128,11 +128,14 @@ OF_AXIS = (
     Declaration(15, "volumetric.correction", "output", 0.0, "Sum of all volumetric corrections", POSITION, VOLUMETRIC),
 )
 
+COMMANDS = "0 as the lists say, 1 on, -1 off"
+"""What the values of a switch mean."""
+
 OF_VOLUMETRIC = (
-    Declaration(0, "enable", "input", True, "Command of the volumetric compensation: on or off"),
+    Declaration(0, "switch", "input", 0, f"Command of the volumetric compensation: {COMMANDS}", path="wanted"),
     Declaration(1, "no_move", "input", False, "The command moves no axis: its value becomes setpoint_shift"),
     *(
-        Declaration(2 + i, f"factor_{letter}", "input", 1.0, f"Share of {letter.upper()}'s correction, with a command")
+        Declaration(2 + i, f"reduction_{letter}", "input", 0.0, f"1 - CFACT_{letter.upper()}, with a command")
         for i, letter in enumerate("xyz")
     ),
     Declaration(5, "active", "output", False, "The volumetric compensation acts at least partly"),
@@ -143,8 +146,8 @@ def _of_kinds() -> Iterator[Declaration]:
     for name, kind in KINDS.items():
         first, number = kind.identifier, kind.number
         called = f"{name} compensation"
-        text = f"Command of the {called}: on or off"
-        yield Declaration(first, f"{name}.enable", "input", True, text, kind=name, path=f"enable[{number}]")
+        text = f"Command of the {called}: {COMMANDS}"
+        yield Declaration(first, f"{name}.switch", "input", 0, text, kind=name, path=f"wanted[{number}]")
         text = f"The {called} acts at least partly"
         yield Declaration(first + 1, f"{name}.active", "output", False, text, kind=name, path=f"active[{number}]")
         if kind.adds_to == "setpoint":
@@ -199,7 +202,7 @@ def variables_of(
                     d,
                     _name(prefix, d, naming),
                     AXIS_BLOCK + index,
-                    _start(d, axis),
+                    d.start,
                     d.unit.format(axis.unit),
                     tuple(name for key, name in inputs.items() if key in needed),
                     index,
@@ -220,7 +223,7 @@ def _of_volumetric(
             d,
             _name(_volumetric_prefix(volumetric.index, naming), d, naming),
             VOLUMETRIC_BLOCK + volumetric.index,
-            not volumetric.manual_activation if d.name == "enable" else d.start,
+            d.start,
             depends_on=tuple(name for key, name in inputs.items() if key in needed and d.causality == "output"),
             volumetric=volumetric.index,
         )
@@ -276,18 +279,6 @@ def _present(machine: Machine, axis: Axis) -> Iterator[Declaration]:
 
 def _volumetric_prefix(index: int, naming: Naming) -> str:
     return f"volumetric[{index}]" if naming == "structured" else f"volumetric_{index}"
-
-
-def _start(declaration: Declaration, axis: Axis) -> Value:
-    """Return the start value: an enable input begins as the compensation activates without a command."""
-    if declaration.name.endswith(".enable"):
-        return not getattr(getattr(axis, declaration.kind), "manual_activation", False)
-    if declaration.kind in KINDS:
-        compensation = getattr(axis, declaration.kind)
-        for own in KINDS[declaration.kind].inputs:
-            if declaration.name == own.name and own.field and compensation is not None:
-                return float(getattr(compensation, own.field))
-    return declaration.start
 
 
 def _variable(

@@ -29,11 +29,21 @@ from .crosstalk import (
 from .cycle import LARGEST, cycle
 from .fit import tables_fit
 from .friction import DELAY_LINE, LOOKAHEAD_MAX
-from .initial import set_initial_inputs
 from .interpolation import Curve, Lookup, curve_value, fold, nearest
 from .motion import Argument, is_motion
 from .record import Vec, fields_of, zero, zeros
-from .records import ERROR_INPUT, ERROR_UPDATE, AxisInputs, AxisOutputs, AxisTable, Inputs, Outputs, State, Tables
+from .records import (
+    ERROR_INPUT,
+    ERROR_SWITCH,
+    ERROR_UPDATE,
+    AxisInputs,
+    AxisOutputs,
+    AxisTable,
+    Inputs,
+    Outputs,
+    State,
+    Tables,
+)
 from .switching import CYCLES_MAX, ramp
 from .trigonometry import cosine, sine
 from .volumetric_errors import errors_at, find_cell
@@ -52,7 +62,6 @@ from .volumetric_records import (
 from .volumetric_switching import adopt_volumetric
 
 EXPORTS = (
-    "set_initial_inputs",
     "cycle",
     "has_notice",
     "update_error",
@@ -80,6 +89,7 @@ __all__ = [
     "ERROR_LIMIT_UNDEFINED",
     "ERROR_PROGRAM_END",
     "ERROR_SINGULAR",
+    "ERROR_SWITCH",
     "ERROR_UPDATE",
     "FRAME",
     "FRICTION",
@@ -125,7 +135,6 @@ __all__ = [
     "move_axis_table",
     "nearest",
     "ramp",
-    "set_initial_inputs",
     "sine",
     "tables_fit",
     "update_error",

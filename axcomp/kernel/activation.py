@@ -1,4 +1,4 @@
-"""Which compensations of an axis are on: what must be referenced, and the commands of the enable inputs.
+"""Which compensations of an axis are on: what must be referenced, and the commands of the switches.
 
 Leadscrew, backlash and temperature need their axis referenced, cross its master, plane both masters and the slave,
 crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12, §13).
@@ -6,8 +6,8 @@ crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12
 
 from __future__ import annotations
 
-from .records import AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs
-from .switching import SwitchTable, advance_switch, begin_switch, heed_command
+from .records import ERROR_SWITCH, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs
+from .switching import SwitchTable, advance_switch, begin_switch, heed_command, is_command
 
 
 def activate_if_stirred(
@@ -28,7 +28,7 @@ def activate_if_stirred(
     stirred = released or references_changed or not axis.settled
     for k in range(table.kinds):
         kind = table.kind[k]
-        if given.enable[kind] != axis.switching[kind].enable and table.switching[kind].configured:
+        if given.wanted[kind] != axis.switching[kind].wanted and table.switching[kind].configured:
             stirred = True
     if stirred:
         activate(table, axis, inputs, given, out, released, moving)
@@ -47,15 +47,17 @@ def activate(
         state = axis.switching[kind]
         if table.switching[kind].configured:
             ready = is_referenced(table.switching[kind], inputs)
+            if given.wanted[kind] != state.wanted and not is_command(given.wanted[kind]):
+                axis.error = ERROR_SWITCH
             if not axis.started:
-                begin_switch(table.switching[kind], state, given.enable[kind], ready, released)
+                begin_switch(table.switching[kind], state, given.wanted[kind], ready, released)
             else:
-                heed_command(table.switching[kind], state, given.enable[kind], ready, released, given.no_move)
+                heed_command(table.switching[kind], state, given.wanted[kind], ready, released, given.no_move)
                 if not axis.held:
                     settled = advance_switch(table.switching[kind], state, ready, moving)
                     axis.settled = axis.settled and settled
         elif not axis.started:
-            state.enable = given.enable[kind]
+            state.wanted = given.wanted[kind]
         if not axis.held:
             out.active[kind] = state.step > 0
 
@@ -63,6 +65,6 @@ def activate(
 def is_referenced(table: SwitchTable, inputs: Inputs) -> bool:
     """Tell whether the axes that a compensation needs have their reference."""
     for k in range(table.needs):
-        if not inputs.axis[table.need[k]].referenced:
+        if inputs.axis[table.need[k]].unreferenced:
             return False
     return True

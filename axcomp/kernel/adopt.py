@@ -5,7 +5,7 @@ Only a volumetric compensation switches off, without motion; an automatic one th
 
 from __future__ import annotations
 
-from .compensations import KINDS, adopt_compensation, adopt_inputs, move_compensation, settled_value
+from .compensations import KINDS, adopt_compensation, move_compensation, settled_value
 from .record import Vec
 from .records import ERROR_UPDATE, AxisInputs, AxisTable, Outputs, State, Tables
 from .shift import adopt_shift
@@ -52,12 +52,12 @@ def adopt_axis(
             value = weight * settled_value(
                 kind, before_pool, before.compensation, axis.compensation, state.motion, i, axis.added
             )
-        adopt_switch(before.switching[kind], switching, own, given.enable[kind])
+        adopt_switch(before.switching[kind], switching, own, given.wanted[kind])
         adopt_compensation(
             kind, before.compensation, after.compensation, axis.compensation, state.motion.axis[i], axis.added
         )
         if axis.started and switching.configured:
-            if comes_on_at_once(switching, own, state):
+            if not before.switching[kind].configured and comes_on_at_once(switching, own, state):
                 own.step = 1
                 own.weight = 1.0
                 weight = 1.0
@@ -65,16 +65,15 @@ def adopt_axis(
                 kind, after_pool, after.compensation, axis.compensation, state.motion, i, axis.added
             )
         blend_in(switching, own, value)
-    adopt_inputs(before.compensation, after.compensation, given.compensation)
     adopt_shift(before.shift_cycles, after.shift_cycles, axis.shift)
 
 
 def comes_on_at_once(table: SwitchTable, own: SwitchState, state: State) -> bool:
-    """Tell whether a compensation that is off will be on in one step, so that its values have to come in softly."""
+    """Tell whether a table that comes will be on in one step, so that its values have to come in softly."""
     if not (table.configured and table.cycles == 1 and own.step == 0 and own.granted):
         return False
     for k in range(table.needs):
-        if not state.axis[table.need[k]].referenced:
+        if state.axis[table.need[k]].unreferenced:
             return False
     return True
 

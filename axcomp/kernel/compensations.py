@@ -38,8 +38,6 @@ from .temperature import (
     TemperatureInputs,
     TemperatureState,
     TemperatureTable,
-    adopt_temperature,
-    begin_temperature,
     take_temperature,
     temperature_fits,
     temperature_value,
@@ -166,16 +164,6 @@ def has_notice(kind: int, states: CompensationStates) -> bool:
     if kind == CROSSTALK:
         return states.crosstalk.outside
     return kind == FRICTION and states.friction.predicted
-
-
-def begin_inputs(tables: CompensationTables, given: CompensationInputs) -> None:
-    """Set the inputs to what they are before anybody sets them."""
-    begin_temperature(tables.temperature, given.temperature)
-
-
-def adopt_inputs(before: CompensationTables, after: CompensationTables, given: CompensationInputs) -> None:
-    """Let inputs that nobody has set follow an update."""
-    adopt_temperature(before.temperature, after.temperature, given.temperature)
 
 
 def adopt_compensation(

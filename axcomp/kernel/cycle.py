@@ -26,8 +26,8 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
     references_changed = False
     for i in range(tables.axis_count):
         accept(tables, state.axis[i], state.motion.axis[i], inputs, i)
-        if inputs.axis[i].referenced != state.axis[i].referenced:
-            state.axis[i].referenced = inputs.axis[i].referenced
+        if inputs.axis[i].unreferenced != state.axis[i].unreferenced:
+            state.axis[i].unreferenced = inputs.axis[i].unreferenced
             references_changed = True
     if tables.volumetrics > 0:
         compensate_volume(tables, pool, state, inputs, outputs)

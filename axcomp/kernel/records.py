@@ -17,6 +17,7 @@ from .volumetric_records import VOLUMETRICS, VolumetricInputs, VolumetricOutputs
 
 ERROR_INPUT = 901  # AXC-901: an input of the axis is not a finite number
 ERROR_UPDATE = 902  # AXC-902: an update does not fit the running machine
+ERROR_SWITCH = 904  # AXC-904: the input of a switch is neither −1, 0 nor 1
 
 
 @dataclass(slots=True)
@@ -41,7 +42,7 @@ class AxisState:
     started: bool
     held: bool  # this cycle's inputs cannot be used
     settled: bool  # no switch changes until a command, a reference or a release does
-    referenced: bool  # the input in the last cycle
+    unreferenced: bool  # the input in the last cycle
     released: bool  # the input in the last cycle
     error: int  # stays until reset
     stop_request: bool  # stays until reset, or until a volumetric compensation is switched on again
@@ -61,11 +62,11 @@ class AxisInputs:
     velocity: float
     acceleration: float
     actual_position: float
-    referenced: bool
+    unreferenced: bool
     fault: bool
     no_move: bool
     released: bool  # a rising edge: the axis is given back, manual compensations off
-    enable: Annotated[list[bool], KINDS]
+    wanted: Annotated[list[int], KINDS]  # switches: 0 as the lists say, 1 on, −1 off
     compensation: CompensationInputs
 
 

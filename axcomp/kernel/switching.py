@@ -34,7 +34,7 @@ class SwitchTable:
 class SwitchState:
     """Where a compensation stands between off and on, and what it adds."""
 
-    enable: bool  # the input in the last cycle: its edges are the commands
+    wanted: int  # the input in the last cycle: its changes are the commands
     command: bool  # what was last commanded
     granted: bool  # the command, once it may act
     no_move: bool  # the command came with NO_MOVE
@@ -55,10 +55,20 @@ def ramp(step: int, cycles: int) -> float:
     return s * s
 
 
-def begin_switch(table: SwitchTable, state: SwitchState, enable: bool, ready: bool, released: bool) -> None:
+def is_command(wanted: int) -> bool:
+    """Tell whether the input of a switch commands something: 0 as the lists say, 1 on, −1 off."""
+    return -1 <= wanted <= 1
+
+
+def is_on(manual: bool, wanted: int) -> bool:
+    """Tell whether a switch commands on; what is no command counts as 0, what the lists say."""
+    return wanted == 1 or (wanted != -1 and not manual)
+
+
+def begin_switch(table: SwitchTable, state: SwitchState, wanted: int, ready: bool, released: bool) -> None:
     """Set the state at the start of a simulation: what is on begins at full weight."""
-    state.enable = enable
-    state.command = enable and not is_refused(table, ready, released)
+    state.wanted = wanted
+    state.command = is_on(table.manual, wanted) and not is_refused(table, ready, released)
     state.granted = state.command
     state.no_move = False
     state.step = table.cycles if state.granted and ready else 0
@@ -72,17 +82,18 @@ def is_refused(table: SwitchTable, ready: bool, released: bool) -> bool:
 
 
 def heed_command(
-    table: SwitchTable, state: SwitchState, enable: bool, ready: bool, released: bool, no_move: bool
+    table: SwitchTable, state: SwitchState, wanted: int, ready: bool, released: bool, no_move: bool
 ) -> None:
-    """Take the command of this cycle, if there is one: an edge of ``enable``, or a manual compensation is released.
+    """Take the command of this cycle, if there is one: ``wanted`` changes, or a manual compensation is released.
 
     ``ready``: the conditions hold. ``released``: reset, program end or release of the axis. ``no_move``: the command
     is to move nothing, whenever it acts.
     """
-    if enable != state.enable:
-        state.enable = enable
-        if not (enable and is_refused(table, ready, released)):
-            state.command = enable
+    if wanted != state.wanted:
+        state.wanted = wanted
+        on = is_on(table.manual, wanted)
+        if is_command(wanted) and not (on and is_refused(table, ready, released)):
+            state.command = on
             state.no_move = no_move
     if table.manual and state.command and released:
         state.command = False
@@ -136,15 +147,18 @@ def blend_in(table: SwitchTable, state: SwitchState, difference: float) -> None:
         state.blend_step = table.blend_cycles
 
 
-def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState, enable: bool) -> None:
+def adopt_switch(before: SwitchTable, after: SwitchTable, state: SwitchState, wanted: int) -> None:
     """Keep a switch where it stands between off and on: its step becomes the one of about the same weight.
 
-    What activates automatically and had no table needs no command: it comes on as soon as its conditions hold.
+    What now activates automatically and did not, or had no table, needs no command: it comes on as soon as its
+    conditions hold, unless it is commanded off.
     """
-    if after.configured and not before.configured and not after.manual:
-        state.enable = enable
-        state.command = enable
-        state.granted = enable
+    if after.configured and not after.manual and (before.manual or not before.configured):
+        state.wanted = wanted
+        state.command = is_on(after.manual, wanted)
+        state.no_move = False
+        if not before.configured:
+            state.granted = state.command
     state.step = mapped_step(state.step, before.cycles, after.cycles)
     if not after.configured:
         state.step = 0

@@ -20,7 +20,7 @@ class TemperatureTable:
 
 @dataclass(slots=True)
 class TemperatureInputs:
-    """What may be measured while the machine runs; at the start it is what the lists say."""
+    """What is measured while the machine runs: it is added to what the lists say."""
 
     offset: float
     coefficient: float
@@ -43,28 +43,16 @@ def take_temperature(
     table: TemperatureTable, state: TemperatureState, given: TemperatureInputs, position: float
 ) -> float:
     """Take over offset and coefficient if they are finite; return how much less is added with them at a position."""
-    if given.offset == state.offset and given.coefficient == state.coefficient:
+    offset = table.offset + given.offset
+    coefficient = table.coefficient + given.coefficient
+    if offset == state.offset and coefficient == state.coefficient:
         return 0.0
-    if given.offset - given.offset != 0.0 or given.coefficient - given.coefficient != 0.0:
+    if offset - offset != 0.0 or coefficient - coefficient != 0.0:
         return 0.0
     before = temperature_value(table, state, position)
-    state.offset = given.offset
-    state.coefficient = given.coefficient
+    state.offset = offset
+    state.coefficient = coefficient
     return before - temperature_value(table, state, position)
-
-
-def begin_temperature(table: TemperatureTable, given: TemperatureInputs) -> None:
-    """Set the inputs to what the lists say."""
-    given.offset = table.offset
-    given.coefficient = table.coefficient
-
-
-def adopt_temperature(before: TemperatureTable, after: TemperatureTable, given: TemperatureInputs) -> None:
-    """Go on with other lists: an input that is as the old ones said follows the new ones."""
-    if given.offset == before.offset:
-        given.offset = after.offset
-    if given.coefficient == before.coefficient:
-        given.coefficient = after.coefficient
 
 
 def temperature_fits(table: TemperatureTable) -> bool:

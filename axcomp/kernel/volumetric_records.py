@@ -101,7 +101,7 @@ class VolumetricState:
     """
 
     started: bool
-    enable: bool  # the input in the last cycle: its edges are the commands
+    wanted: int  # the input in the last cycle: its changes are the commands
     command: bool  # what was last commanded
     no_move: bool  # the command came with NO_MOVE
     wanted_factor: Annotated[list[float], LINEAR]  # CFACT of the command
@@ -129,11 +129,11 @@ class VolumetricState:
 class VolumetricInputs:
     """What the controller says about a volumetric compensation in this cycle."""
 
-    enable: bool
+    wanted: int  # switch: 0 as the lists say, 1 on, −1 off
     no_move: bool
-    factor_x: float  # CFACT_X, 0 … 1; a factor belongs to the command in whose cycle it is given, as no_move does
-    factor_y: float
-    factor_z: float
+    reduction_x: float  # 1 − CFACT_X; it belongs to the command in whose cycle it is given, as no_move does
+    reduction_y: float
+    reduction_z: float
 
 
 @dataclass(slots=True)

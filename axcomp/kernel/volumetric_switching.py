@@ -7,7 +7,8 @@ It is released along the same filter with the axis' next motion, or with the nex
 
 from __future__ import annotations
 
-from .records import Inputs, State
+from .records import ERROR_SWITCH, Inputs, State
+from .switching import is_command, is_on
 from .volumetric_records import (
     ERROR_LIMIT_UNDEFINED,
     ERROR_PROGRAM_END,
@@ -33,9 +34,12 @@ def switch_volumetric(
     """Follow commands and conditions; what is on in the first cycle has full weight."""
     for d in range(LINEAR):
         volumetric.absorbed[d] = False
-    if not volumetric.started or given.enable != volumetric.enable:
-        volumetric.enable = given.enable
-        take_command(volumetric, given, given.enable)
+    if not volumetric.started or given.wanted != volumetric.wanted:
+        volumetric.wanted = given.wanted
+        if not is_command(given.wanted):
+            set_error(table, state, ERROR_SWITCH)
+        if not volumetric.started or is_command(given.wanted):
+            take_command(volumetric, given, is_on(table.manual, given.wanted))
     ready = drop_members(table, volumetric, inputs, state)
     if inputs.reset:
         volumetric.command = False
@@ -71,7 +75,7 @@ def adopt_volumetric(before: VolumetricTable, after: VolumetricTable, volumetric
     if after.manual:
         volumetric.command = False
     elif before.manual:
-        volumetric.command = True
+        volumetric.command = volumetric.wanted != -1
         volumetric.no_move = False
         for d in range(LINEAR):
             volumetric.wanted_factor[d] = 1.0
@@ -95,7 +99,7 @@ def drop_members(table: VolumetricTable, volumetric: VolumetricState, inputs: In
     failed = False
     for m in range(table.members):
         given = inputs.axis[table.member[m]]
-        if given.fault or not given.referenced:
+        if given.fault or given.unreferenced:
             ready = False
             failed = failed or (given.fault and volumetric.on)
             if table.member_letter[m] < LINEAR:
@@ -159,12 +163,12 @@ def switch_on(table: VolumetricTable, volumetric: VolumetricState, state: State)
 
 
 def factor_of(given: VolumetricInputs, letter: int) -> float:
-    """Return CFACT of X, Y or Z, held within 0 … 1; what is no number counts as 0."""
-    factor = given.factor_x
+    """Return CFACT of X, Y or Z, held within 0 … 1; where its reduction is no number it is 0."""
+    factor = 1.0 - given.reduction_x
     if letter == 1:
-        factor = given.factor_y
+        factor = 1.0 - given.reduction_y
     elif letter == LINEAR - 1:
-        factor = given.factor_z
+        factor = 1.0 - given.reduction_z
     if factor >= 0.0:
         return min(factor, 1.0)
     return 0.0

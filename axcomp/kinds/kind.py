@@ -129,8 +129,6 @@ class KindInput:
         One sentence without a full stop.
     unit : str
         ``{}`` stands for mm or deg.
-    field : str
-        Of the compensation, whose value it starts with; "": it starts with 0 or false.
     boolean : bool
         It is a Boolean.
     present : callable
@@ -142,7 +140,6 @@ class KindInput:
     path: str
     description: str
     unit: str = ""
-    field: str = ""
     boolean: bool = False
     present: Callable[[Any], bool] = lambda _: True
 

@@ -82,13 +82,9 @@ class TemperatureKind(Kind[Temperature]):
     )
     values = ("offset", "coefficient")
     inputs = (
-        KindInput(39, "temperature.offset", "offset", "Offset of the temperature compensation", "{}", field="offset"),
+        KindInput(39, "temperature.offset", "offset", "Added to the offset of the lists", "{}"),
         KindInput(
-            40,
-            "temperature.coefficient",
-            "coefficient",
-            "Growth by temperature, mm per mm or deg per deg",
-            field="coefficient",
+            40, "temperature.coefficient", "coefficient", "Added to the growth of the lists, mm per mm or deg per deg"
         ),
     )
     codes = {"AXC-GRADIENT": (Severity.WARNING, "A growth by temperature that no machine has: it is in another unit")}

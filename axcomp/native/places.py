@@ -25,7 +25,7 @@ from ..interface import (
 from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_of
 from ..kinds import KIND_NAMES, KINDS
 from ..model import CYCLE_TIME_MAX
-from ..runtime import ON_INSTANT
+from ..runtime import NO_COMMAND, ON_INSTANT
 from .layout import ctypes_of
 
 GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
@@ -37,7 +37,7 @@ TABLES = {
 """Table of places → block of value references that it describes (the first of its kind)."""
 
 NO_PLACE = "{0, 0, 0}"
-_KIND = re.compile(r"^(enable|active|contribution)\[(\d+)\]")
+_KIND = re.compile(r"^(wanted|active|contribution)\[(\d+)\]")
 
 
 def layout() -> int:
@@ -75,6 +75,7 @@ def places_source() -> str:
     ]
     notices = ",\n".join(rows)
     parts.append(f"const char *const axcomp_notices[KINDS] = {{\n{notices}\n}};\n")
+    parts.append(f'const char axcomp_no_command[] = "{NO_COMMAND}";\n')
     return "\n".join(parts)
 
 

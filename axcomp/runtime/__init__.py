@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from .compile import Compiled, CompileError, compile_tables
-from .runtime import ON_INSTANT, Runtime, UpdateError, initial_inputs
+from .runtime import NO_COMMAND, ON_INSTANT, Runtime, UpdateError, initial_inputs
 from .snapshot import SnapshotError, identity_of, pack, unpack
 
 __all__ = [
+    "NO_COMMAND",
     "ON_INSTANT",
     "CompileError",
     "Compiled",

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..kernel import (
+    ERROR_SWITCH,
     ERROR_UPDATE,
     Inputs,
     Outputs,
@@ -23,7 +24,6 @@ from ..kernel import (
     cycle,
     has_notice,
     move_axis_table,
-    set_initial_inputs,
     update_error,
     zero,
 )
@@ -36,16 +36,19 @@ ON_INSTANT = 0.01
 """Share of a cycle by which a communication point may miss the instant of a cycle: hosts add up their steps."""
 
 
+NO_COMMAND = "an input switch was neither -1, 0 nor 1; it commanded nothing"
+"""What is told of an axis with ``ERROR_SWITCH``."""
+
+
 class UpdateError(ValueError):
     """An update that does not fit the running machine; nothing was changed."""
 
 
 def initial_inputs(tables: Tables) -> Inputs:
-    """Return the inputs before anybody sets them."""
+    """Return the inputs before anybody sets them: all 0."""
     inputs = zero(Inputs)
     del inputs.axis[tables.axis_count :]
     del inputs.volumetric[tables.volumetrics :]
-    set_initial_inputs(tables, inputs)
     return inputs
 
 
@@ -126,9 +129,11 @@ class Runtime:
     def notices(self) -> Iterator[str]:
         """Yield, once each, what the machine's user should know about the motion so far."""
         for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
-            for kind in kinds_of(axis):
-                notice = f"axis {axis.name}: {kind.notice}"
-                if has_notice(kind.number, state.compensation) and notice not in self._told:
+            found = [kind.notice for kind in kinds_of(axis) if has_notice(kind.number, state.compensation)]
+            if state.error == ERROR_SWITCH:
+                found.append(NO_COMMAND)
+            for notice in (f"axis {axis.name}: {text}" for text in found):
+                if notice not in self._told:
                     self._told.add(notice)
                     yield notice
 

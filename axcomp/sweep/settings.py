@@ -5,7 +5,7 @@
 | ``achskw1.lis: kw.crosscomp2.n_cycles`` | go into this entry of this list; empty indices: into all rows |
 | ``scale achskw1.lis: kw.ssfk.table[].pos`` | multiply the numbers that stand there |
 | ``scale X.leadscrew``, ``scale volumetric[0].EXX`` | multiply the values of a compensation that acts |
-| ``input X.leadscrew.enable`` | are this input from the first to the last cycle |
+| ``input X.leadscrew.switch`` | are this input from the first to the last cycle |
 | ``scale input X.velocity`` | multiply this input |
 | ``parameter velocity`` | are a parameter: ``PARAMETERS``, or one of the FMU |
 """

@@ -56,7 +56,6 @@ void axcomp_begin_again(Instance *instance)
     memset(instance->told, 0, sizeof instance->told);
     memory->phase = INSTANTIATED;
     memory->controls.cycle_time = instance->lists->cycle_time;
-    axcomp_set_initial_inputs(&instance->lists->tables, &memory->inputs);
 }
 
 static void free_lists(Lists *lists)
@@ -240,16 +239,17 @@ void axcomp_preview_outputs(Instance *instance)
     axcomp_cycle(&instance->lists->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
 }
 
-/* Tell, once for an axis and a kind, that a compensation is used beyond its table. */
+/* Tell, once for an axis and a kind, that a compensation is used beyond its table, and of switches that are none. */
 static void give_notices(Instance *instance)
 {
     for (int i = 0; i < instance->lists->tables.axis_count; i++) {
-        for (int kind = 0; kind < KINDS; kind++) {
+        const AxisState *axis = &instance->memory.state.axis[i];
+        for (int kind = 0; kind <= KINDS; kind++) {
             bool told = (instance->told[kind] >> i & 1u) != 0;
-            if (!told && axcomp_has_notice(kind, &instance->memory.state.axis[i].compensation)) {
+            if (!told && (kind < KINDS ? axcomp_has_notice(kind, &axis->compensation) : axis->error == ERROR_SWITCH)) {
                 instance->told[kind] |= 1u << i;
                 axcomp_say(instance, fmi2Warning, "axis %d: %s", instance->lists->tables.axis[i].number,
-                           axcomp_notices[kind]);
+                           kind < KINDS ? axcomp_notices[kind] : axcomp_no_command);
             }
         }
     }

@@ -46,7 +46,7 @@ typedef struct {
     Lists *first;
     Memory memory;
     State preview;        /* of the cycle that is computed during initialization, without being run */
-    uint32_t told[KINDS]; /* bit i: that a kind of compensation of axis i has been used beyond its table */
+    uint32_t told[KINDS + 1]; /* bit i: that a kind of axis i was used beyond its table; the last: a switch was none */
 } Instance;
 
 enum { CATEGORY_WARNING, CATEGORY_ERROR, CATEGORY_ALL, CATEGORIES };

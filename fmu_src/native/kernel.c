@@ -109,6 +109,18 @@ static double ramp(int32_t step, int32_t cycles)
     return s * s;
 }
 
+/* Tell whether the input of a switch commands something: 0 as the lists say, 1 on, −1 off. */
+static bool is_command(int32_t wanted)
+{
+    return -1 <= wanted && wanted <= 1;
+}
+
+/* Tell whether a switch commands on; what is no command counts as 0, what the lists say. */
+static bool is_on(bool manual, int32_t wanted)
+{
+    return wanted == 1 || (wanted != -1 && !manual);
+}
+
 /* Tell whether a command to switch on is refused: a manual one, before its references or while it is released. */
 static bool is_refused(const SwitchTable *table, bool ready, bool released)
 {
@@ -116,10 +128,10 @@ static bool is_refused(const SwitchTable *table, bool ready, bool released)
 }
 
 /* Set the state at the start of a simulation: what is on begins at full weight. */
-static void begin_switch(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released)
+static void begin_switch(const SwitchTable *table, SwitchState *state, int32_t wanted, bool ready, bool released)
 {
-    state->enable = enable;
-    state->command = enable && !is_refused(table, ready, released);
+    state->wanted = wanted;
+    state->command = is_on(table->manual, wanted) && !is_refused(table, ready, released);
     state->granted = state->command;
     state->no_move = false;
     state->step = state->granted && ready ? table->cycles : 0;
@@ -127,18 +139,19 @@ static void begin_switch(const SwitchTable *table, SwitchState *state, bool enab
     state->absorbed = 0.0;
 }
 
-/* Take the command of this cycle, if there is one: an edge of `enable`, or a manual compensation is released.
+/* Take the command of this cycle, if there is one: `wanted` changes, or a manual compensation is released.
  *
  * `ready`: the conditions hold. `released`: reset, program end or release of the axis. `no_move`: the command
  * is to move nothing, whenever it acts.
  */
-static void heed_command(const SwitchTable *table, SwitchState *state, bool enable, bool ready, bool released,
+static void heed_command(const SwitchTable *table, SwitchState *state, int32_t wanted, bool ready, bool released,
         bool no_move)
 {
-    if (enable != state->enable) {
-        state->enable = enable;
-        if (!(enable && is_refused(table, ready, released))) {
-            state->command = enable;
+    if (wanted != state->wanted) {
+        state->wanted = wanted;
+        bool on = is_on(table->manual, wanted);
+        if (is_command(wanted) && !(on && is_refused(table, ready, released))) {
+            state->command = on;
             state->no_move = no_move;
         }
     }
@@ -219,14 +232,18 @@ static int32_t mapped_step(int32_t step, int32_t before, int32_t after)
 
 /* Keep a switch where it stands between off and on: its step becomes the one of about the same weight.
  *
- * What activates automatically and had no table needs no command: it comes on as soon as its conditions hold.
+ * What now activates automatically and did not, or had no table, needs no command: it comes on as soon as its
+ * conditions hold, unless it is commanded off.
  */
-static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state, bool enable)
+static void adopt_switch(const SwitchTable *before, const SwitchTable *after, SwitchState *state, int32_t wanted)
 {
-    if (after->configured && !before->configured && !after->manual) {
-        state->enable = enable;
-        state->command = enable;
-        state->granted = enable;
+    if (after->configured && !after->manual && (before->manual || !before->configured)) {
+        state->wanted = wanted;
+        state->command = is_on(after->manual, wanted);
+        state->no_move = false;
+        if (!before->configured) {
+            state->granted = state->command;
+        }
     }
     state->step = mapped_step(state->step, before->cycles, after->cycles);
     if (!after->configured) {
@@ -1057,34 +1074,18 @@ static double temperature_value(const TemperatureTable *table, const Temperature
 static double take_temperature(const TemperatureTable *table, TemperatureState *state, const TemperatureInputs *given,
         double position)
 {
-    if (given->offset == state->offset && given->coefficient == state->coefficient) {
+    double offset = table->offset + given->offset;
+    double coefficient = table->coefficient + given->coefficient;
+    if (offset == state->offset && coefficient == state->coefficient) {
         return 0.0;
     }
-    if (given->offset - given->offset != 0.0 || given->coefficient - given->coefficient != 0.0) {
+    if (offset - offset != 0.0 || coefficient - coefficient != 0.0) {
         return 0.0;
     }
     double before = temperature_value(table, state, position);
-    state->offset = given->offset;
-    state->coefficient = given->coefficient;
+    state->offset = offset;
+    state->coefficient = coefficient;
     return before - temperature_value(table, state, position);
-}
-
-/* Set the inputs to what the lists say. */
-static void begin_temperature(const TemperatureTable *table, TemperatureInputs *given)
-{
-    given->offset = table->offset;
-    given->coefficient = table->coefficient;
-}
-
-/* Go on with other lists: an input that is as the old ones said follows the new ones. */
-static void adopt_temperature(const TemperatureTable *before, const TemperatureTable *after, TemperatureInputs *given)
-{
-    if (given->offset == before->offset) {
-        given->offset = after->offset;
-    }
-    if (given->coefficient == before->coefficient) {
-        given->coefficient = after->coefficient;
-    }
 }
 
 /* Tell whether the table can be used: its numbers are finite. */
@@ -1185,18 +1186,6 @@ bool axcomp_has_notice(int32_t kind, const CompensationStates *states)
         return states->crosstalk.outside;
     }
     return kind == FRICTION && states->friction.predicted;
-}
-
-/* Set the inputs to what they are before anybody sets them. */
-static void begin_inputs(const CompensationTables *tables, CompensationInputs *given)
-{
-    begin_temperature(&tables->temperature, &given->temperature);
-}
-
-/* Let inputs that nobody has set follow an update. */
-static void adopt_inputs(const CompensationTables *before, const CompensationTables *after, CompensationInputs *given)
-{
-    adopt_temperature(&before->temperature, &after->temperature, &given->temperature);
 }
 
 /* Make the state of a kind fit its new table; `added`: to the setpoint before the leadscrew. */
@@ -1321,34 +1310,9 @@ static void adopt_shift(int32_t before, int32_t after, ShiftState *state)
     }
 }
 
-/* ================================= initial ==================================
- *
- * The inputs before anybody sets them: referenced, and enabled what activates automatically.
- */
-
-/* Set inputs that are all 0 to what they are at the start. */
-void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs)
-{
-    for (int32_t i = 0; i < tables->axis_count; i++) {
-        const AxisTable *table = &tables->axis[i];
-        AxisInputs *given = &inputs->axis[i];
-        given->referenced = true;
-        for (int32_t kind = 0; kind < KINDS; kind++) {
-            given->enable[kind] = table->switching[kind].reserved > 0 && !table->switching[kind].manual;
-        }
-        begin_inputs(&table->compensation, &given->compensation);
-    }
-    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
-        inputs->volumetric[k].enable = tables->volumetric[k].configured && !tables->volumetric[k].manual;
-        inputs->volumetric[k].factor_x = 1.0;
-        inputs->volumetric[k].factor_y = 1.0;
-        inputs->volumetric[k].factor_z = 1.0;
-    }
-}
-
 /* ================================ activation ================================
  *
- * Which compensations of an axis are on: what must be referenced, and the commands of the enable inputs.
+ * Which compensations of an axis are on: what must be referenced, and the commands of the switches.
  *
  * Leadscrew, backlash and temperature need their axis referenced, cross its master, plane both masters and the slave,
  * crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12, §13).
@@ -1358,7 +1322,7 @@ void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs)
 static bool is_referenced(const SwitchTable *table, const Inputs *inputs)
 {
     for (int32_t k = 0; k < table->needs; k++) {
-        if (!inputs->axis[table->need[k]].referenced) {
+        if (inputs->axis[table->need[k]].unreferenced) {
             return false;
         }
     }
@@ -1378,17 +1342,20 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
         SwitchState *state = &axis->switching[kind];
         if (table->switching[kind].configured) {
             bool ready = is_referenced(&table->switching[kind], inputs);
+            if (given->wanted[kind] != state->wanted && !is_command(given->wanted[kind])) {
+                axis->error = ERROR_SWITCH;
+            }
             if (!axis->started) {
-                begin_switch(&table->switching[kind], state, given->enable[kind], ready, released);
+                begin_switch(&table->switching[kind], state, given->wanted[kind], ready, released);
             } else {
-                heed_command(&table->switching[kind], state, given->enable[kind], ready, released, given->no_move);
+                heed_command(&table->switching[kind], state, given->wanted[kind], ready, released, given->no_move);
                 if (!axis->held) {
                     bool settled = advance_switch(&table->switching[kind], state, ready, moving);
                     axis->settled = axis->settled && settled;
                 }
             }
         } else if (!axis->started) {
-            state->enable = given->enable[kind];
+            state->wanted = given->wanted[kind];
         }
         if (!axis->held) {
             out->active[kind] = state->step > 0;
@@ -1408,7 +1375,7 @@ static void activate_if_stirred(const AxisTable *table, AxisState *axis, const I
     bool stirred = released || references_changed || !axis->settled;
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
         int32_t kind = table->kind[k];
-        if (given->enable[kind] != axis->switching[kind].enable && table->switching[kind].configured) {
+        if (given->wanted[kind] != axis->switching[kind].wanted && table->switching[kind].configured) {
             stirred = true;
         }
     }
@@ -2032,14 +1999,14 @@ static double smooth(double u)
     return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
-/* Return CFACT of X, Y or Z, held within 0 … 1; what is no number counts as 0. */
+/* Return CFACT of X, Y or Z, held within 0 … 1; where its reduction is no number it is 0. */
 static double factor_of(const VolumetricInputs *given, int32_t letter)
 {
-    double factor = given->factor_x;
+    double factor = 1.0 - given->reduction_x;
     if (letter == 1) {
-        factor = given->factor_y;
+        factor = 1.0 - given->reduction_y;
     } else if (letter == LINEAR - 1) {
-        factor = given->factor_z;
+        factor = 1.0 - given->reduction_z;
     }
     if (factor >= 0.0) {
         return double_min(factor, 1.0);
@@ -2085,7 +2052,7 @@ static bool drop_members(const VolumetricTable *table, VolumetricState *volumetr
     bool failed = false;
     for (int32_t m = 0; m < table->members; m++) {
         const AxisInputs *given = &inputs->axis[table->member[m]];
-        if (given->fault || !given->referenced) {
+        if (given->fault || given->unreferenced) {
             ready = false;
             failed = failed || (given->fault && volumetric->on);
             if (table->member_letter[m] < LINEAR) {
@@ -2196,9 +2163,14 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
     for (int32_t d = 0; d < LINEAR; d++) {
         volumetric->absorbed[d] = false;
     }
-    if (!volumetric->started || given->enable != volumetric->enable) {
-        volumetric->enable = given->enable;
-        take_command(volumetric, given, given->enable);
+    if (!volumetric->started || given->wanted != volumetric->wanted) {
+        volumetric->wanted = given->wanted;
+        if (!is_command(given->wanted)) {
+            set_error(table, state, ERROR_SWITCH);
+        }
+        if (!volumetric->started || is_command(given->wanted)) {
+            take_command(volumetric, given, is_on(table->manual, given->wanted));
+        }
     }
     bool ready = drop_members(table, volumetric, inputs, state);
     if (inputs->reset) {
@@ -2231,7 +2203,7 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
     if (after->manual) {
         volumetric->command = false;
     } else if (before->manual) {
-        volumetric->command = true;
+        volumetric->command = volumetric->wanted != -1;
         volumetric->no_move = false;
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->wanted_factor[d] = 1.0;
@@ -2594,8 +2566,8 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
     bool references_changed = false;
     for (int32_t i = 0; i < tables->axis_count; i++) {
         accept(tables, &state->axis[i], &state->motion.axis[i], inputs, i);
-        if (inputs->axis[i].referenced != state->axis[i].referenced) {
-            state->axis[i].referenced = inputs->axis[i].referenced;
+        if (inputs->axis[i].unreferenced != state->axis[i].unreferenced) {
+            state->axis[i].unreferenced = inputs->axis[i].unreferenced;
             references_changed = true;
         }
     }
@@ -2654,14 +2626,14 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
     return 0;
 }
 
-/* Tell whether a compensation that is off will be on in one step, so that its values have to come in softly. */
+/* Tell whether a table that comes will be on in one step, so that its values have to come in softly. */
 static bool comes_on_at_once(const SwitchTable *table, const SwitchState *own, const State *state)
 {
     if (!(table->configured && table->cycles == 1 && own->step == 0 && own->granted)) {
         return false;
     }
     for (int32_t k = 0; k < table->needs; k++) {
-        if (!state->axis[table->need[k]].referenced) {
+        if (state->axis[table->need[k]].unreferenced) {
             return false;
         }
     }
@@ -2687,7 +2659,7 @@ void axcomp_keep_declared(const AxisTable *before, AxisTable *after)
  * Where the new tables say something else for the position where the axis is, the difference is blended in.
  */
 void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisTable *after, const double *after_pool,
-        State *state, AxisInputs *given, int32_t i)
+        State *state, const AxisInputs *given, int32_t i)
 {
     AxisState *axis = &state->axis[i];
     axis->settled = false;
@@ -2703,11 +2675,11 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
                     * settled_value(kind, before_pool, &before->compensation, &axis->compensation, &state->motion, i,
                     axis->added);
         }
-        adopt_switch(&before->switching[kind], switching, own, given->enable[kind]);
+        adopt_switch(&before->switching[kind], switching, own, given->wanted[kind]);
         adopt_compensation(kind, &before->compensation, &after->compensation, &axis->compensation,
                 &state->motion.axis[i], axis->added);
         if (axis->started && switching->configured) {
-            if (comes_on_at_once(switching, own, state)) {
+            if (!before->switching[kind].configured && comes_on_at_once(switching, own, state)) {
                 own->step = 1;
                 own->weight = 1.0;
                 weight = 1.0;
@@ -2718,7 +2690,6 @@ void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisT
         }
         blend_in(switching, own, value);
     }
-    adopt_inputs(&before->compensation, &after->compensation, &given->compensation);
     adopt_shift(before->shift_cycles, after->shift_cycles, &axis->shift);
 }
 

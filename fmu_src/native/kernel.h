@@ -39,7 +39,7 @@ typedef struct {
 
 /* Where a compensation stands between off and on, and what it adds. */
 typedef struct {
-    bool enable;  /* the input in the last cycle: its edges are the commands */
+    int32_t wanted;  /* the input in the last cycle: its changes are the commands */
     bool command;  /* what was last commanded */
     bool granted;  /* the command, once it may act */
     bool no_move;  /* the command came with NO_MOVE */
@@ -245,7 +245,7 @@ typedef struct {
     double coefficient;  /* mm per mm or ° per ° */
 } TemperatureTable;
 
-/* What may be measured while the machine runs; at the start it is what the lists say. */
+/* What is measured while the machine runs: it is added to what the lists say. */
 typedef struct {
     double offset;
     double coefficient;
@@ -405,7 +405,7 @@ typedef struct {
  */
 typedef struct {
     bool started;
-    bool enable;  /* the input in the last cycle: its edges are the commands */
+    int32_t wanted;  /* the input in the last cycle: its changes are the commands */
     bool command;  /* what was last commanded */
     bool no_move;  /* the command came with NO_MOVE */
     double wanted_factor[LINEAR];  /* CFACT of the command */
@@ -431,11 +431,11 @@ typedef struct {
 
 /* What the controller says about a volumetric compensation in this cycle. */
 typedef struct {
-    bool enable;
+    int32_t wanted;  /* switch: 0 as the lists say, 1 on, −1 off */
     bool no_move;
-    double factor_x;  /* CFACT_X, 0 … 1; a factor belongs to the command in whose cycle it is given, as no_move does */
-    double factor_y;
-    double factor_z;
+    double reduction_x;  /* 1 − CFACT_X; it belongs to the command in whose cycle it is given, as no_move does */
+    double reduction_y;
+    double reduction_z;
 } VolumetricInputs;
 
 /* What the engine returns for a volumetric compensation. */
@@ -453,6 +453,7 @@ typedef struct {
 
 #define ERROR_INPUT 901  /* AXC-901: an input of the axis is not a finite number */
 #define ERROR_UPDATE 902  /* AXC-902: an update does not fit the running machine */
+#define ERROR_SWITCH 904  /* AXC-904: the input of a switch is neither −1, 0 nor 1 */
 
 /* What is fixed for an axis. */
 typedef struct {
@@ -472,7 +473,7 @@ typedef struct {
     bool started;
     bool held;  /* this cycle's inputs cannot be used */
     bool settled;  /* no switch changes until a command, a reference or a release does */
-    bool referenced;  /* the input in the last cycle */
+    bool unreferenced;  /* the input in the last cycle */
     bool released;  /* the input in the last cycle */
     int32_t error;  /* stays until reset */
     bool stop_request;  /* stays until reset, or until a volumetric compensation is switched on again */
@@ -490,11 +491,11 @@ typedef struct {
     double velocity;
     double acceleration;
     double actual_position;
-    bool referenced;
+    bool unreferenced;
     bool fault;
     bool no_move;
     bool released;  /* a rising edge: the axis is given back, manual compensations off */
-    bool enable[KINDS];
+    int32_t wanted[KINDS];  /* switches: 0 as the lists say, 1 on, −1 off */
     CompensationInputs compensation;
 } AxisInputs;
 
@@ -580,9 +581,6 @@ extern "C" {
 /* Tell whether a kind has been used beyond its table, or had to guess: the machine's user should know. */
 AXCOMP_API bool axcomp_has_notice(int32_t kind, const CompensationStates *states);
 
-/* Set inputs that are all 0 to what they are at the start. */
-AXCOMP_API void axcomp_set_initial_inputs(const Tables *tables, Inputs *inputs);
-
 /* Run one cycle: the outputs belong to these inputs. */
 AXCOMP_API void axcomp_cycle(const Tables *tables, const double *pool, State *state, const Inputs *inputs,
         Outputs *outputs);
@@ -592,7 +590,7 @@ AXCOMP_API int32_t axcomp_update_error(const AxisTable *before, const AxisTable 
 
 /* Make the state of axis i fit its new tables (`update_error` is 0); what was declared stays declared. */
 AXCOMP_API void axcomp_adopt_axis(const AxisTable *before, const double *before_pool, AxisTable *after,
-        const double *after_pool, State *state, AxisInputs *given, int32_t i);
+        const double *after_pool, State *state, const AxisInputs *given, int32_t i);
 
 /* Let what an axis activated at the start count for the next update too, and what was dropped go on running out. */
 AXCOMP_API void axcomp_keep_declared(const AxisTable *before, AxisTable *after);

@@ -2,7 +2,7 @@
 #ifndef AXCOMP_LAYOUT_H
 #define AXCOMP_LAYOUT_H
 
-#define AXCOMP_LAYOUT 0x6aff8787u  /* of the records in images and states */
+#define AXCOMP_LAYOUT 0x36a7c285u  /* of the records in images and states */
 #define AXCOMP_ON_INSTANT 0.01  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX 1000.0  /* s; cycle times are shorter */
 

@@ -20,7 +20,7 @@ const Place axcomp_axis_places[PLACES] = {
     AT(1) {'r', 'i', offsetof(AxisInputs, velocity)},
     AT(2) {'r', 'i', offsetof(AxisInputs, acceleration)},
     AT(3) {'r', 'i', offsetof(AxisInputs, actual_position)},
-    AT(4) {'b', 'i', offsetof(AxisInputs, referenced)},
+    AT(4) {'b', 'i', offsetof(AxisInputs, unreferenced)},
     AT(5) {'b', 'i', offsetof(AxisInputs, fault)},
     AT(6) {'b', 'i', offsetof(AxisInputs, no_move)},
     AT(7) {'b', 'i', offsetof(AxisInputs, released)},
@@ -32,27 +32,27 @@ const Place axcomp_axis_places[PLACES] = {
     AT(13) {'r', 'o', offsetof(AxisOutputs, contribution[FRICTION])},
     AT(14) {'b', 'o', offsetof(AxisOutputs, stop_request)},
     AT(15) {'r', 'o', offsetof(AxisOutputs, volumetric_correction)},
-    AT(16) {'b', 'i', offsetof(AxisInputs, enable[CROSS])},
+    AT(16) {'i', 'i', offsetof(AxisInputs, wanted[CROSS])},
     AT(17) {'b', 'o', offsetof(AxisOutputs, active[CROSS])},
     AT(18) {'r', 'o', offsetof(AxisOutputs, contribution[CROSS])},
     AT(19) {0, 0, 0},
-    AT(20) {'b', 'i', offsetof(AxisInputs, enable[PLANE])},
+    AT(20) {'i', 'i', offsetof(AxisInputs, wanted[PLANE])},
     AT(21) {'b', 'o', offsetof(AxisOutputs, active[PLANE])},
     AT(22) {'r', 'o', offsetof(AxisOutputs, contribution[PLANE])},
     AT(23) {0, 0, 0},
-    AT(24) {'b', 'i', offsetof(AxisInputs, enable[CROSSTALK])},
+    AT(24) {'i', 'i', offsetof(AxisInputs, wanted[CROSSTALK])},
     AT(25) {'b', 'o', offsetof(AxisOutputs, active[CROSSTALK])},
     AT(26) {'r', 'o', offsetof(AxisOutputs, contribution[CROSSTALK])},
     AT(27) {0, 0, 0},
-    AT(28) {'b', 'i', offsetof(AxisInputs, enable[LEADSCREW])},
+    AT(28) {'i', 'i', offsetof(AxisInputs, wanted[LEADSCREW])},
     AT(29) {'b', 'o', offsetof(AxisOutputs, active[LEADSCREW])},
     AT(30) {'r', 'o', offsetof(AxisOutputs, contribution[LEADSCREW])},
     AT(31) {0, 0, 0},
-    AT(32) {'b', 'i', offsetof(AxisInputs, enable[FRICTION])},
+    AT(32) {'i', 'i', offsetof(AxisInputs, wanted[FRICTION])},
     AT(33) {'b', 'o', offsetof(AxisOutputs, active[FRICTION])},
     AT(34) {0, 0, 0},
     AT(35) {0, 0, 0},
-    AT(36) {'b', 'i', offsetof(AxisInputs, enable[TEMPERATURE])},
+    AT(36) {'i', 'i', offsetof(AxisInputs, wanted[TEMPERATURE])},
     AT(37) {'b', 'o', offsetof(AxisOutputs, active[TEMPERATURE])},
     AT(38) {'r', 'o', offsetof(AxisOutputs, contribution[TEMPERATURE])},
     AT(39) {'r', 'i', offsetof(AxisInputs, compensation.temperature.offset)},
@@ -60,7 +60,7 @@ const Place axcomp_axis_places[PLACES] = {
     AT(41) {0, 0, 0},
     AT(42) {0, 0, 0},
     AT(43) {0, 0, 0},
-    AT(44) {'b', 'i', offsetof(AxisInputs, enable[BACKLASH])},
+    AT(44) {'i', 'i', offsetof(AxisInputs, wanted[BACKLASH])},
     AT(45) {'b', 'o', offsetof(AxisOutputs, active[BACKLASH])},
     AT(46) {'r', 'o', offsetof(AxisOutputs, contribution[BACKLASH])},
     AT(47) {0, 0, 0},
@@ -72,11 +72,11 @@ const Place axcomp_axis_places[PLACES] = {
 };
 
 const Place axcomp_volumetric_places[PLACES] = {
-    AT(0) {'b', 'i', offsetof(VolumetricInputs, enable)},
+    AT(0) {'i', 'i', offsetof(VolumetricInputs, wanted)},
     AT(1) {'b', 'i', offsetof(VolumetricInputs, no_move)},
-    AT(2) {'r', 'i', offsetof(VolumetricInputs, factor_x)},
-    AT(3) {'r', 'i', offsetof(VolumetricInputs, factor_y)},
-    AT(4) {'r', 'i', offsetof(VolumetricInputs, factor_z)},
+    AT(2) {'r', 'i', offsetof(VolumetricInputs, reduction_x)},
+    AT(3) {'r', 'i', offsetof(VolumetricInputs, reduction_y)},
+    AT(4) {'r', 'i', offsetof(VolumetricInputs, reduction_z)},
     AT(5) {'b', 'o', offsetof(VolumetricOutputs, active)}
 };
 
@@ -89,3 +89,5 @@ const char *const axcomp_notices[KINDS] = {
     AT(BACKLASH) NULL,
     AT(FRICTION) "its friction compensation predicts reversals: nothing gives it velocity_ahead, as its look-ahead needs"
 };
+
+const char axcomp_no_command[] = "an input switch was neither -1, 0 nor 1; it commanded nothing";

@@ -25,6 +25,7 @@ typedef struct {
 
 /* What the user should know when a compensation is used beyond its table; NULL where that is no matter. */
 extern const char *const axcomp_notices[];
+extern const char axcomp_no_command[]; /* of a switch that is none */
 
 extern const Place axcomp_machine_places[PLACES];
 extern const Place axcomp_axis_places[PLACES];

@@ -133,7 +133,6 @@ static int bench_kernel(const char *image, int batches)
         return 1;
     }
     for (unsigned row = 0; row < ROWS; row++) {
-        axcomp_set_initial_inputs(&lists.tables, &rows[row]);
         /* The same numbers as for an FMU whose real inputs are these four of each axis. */
         for (int i = 0; i < lists.tables.axis_count; i++) {
             AxisInputs *axis = &rows[row].axis[i];

@@ -34,7 +34,7 @@ def results(folder: Path) -> dict[str, list[float]]:
 
 
 def test_rows_run_as_cycles_with_their_commands(folder: Path) -> None:
-    program = "time,X.setpoint,X.referenced,command\n5,10,true,\n5.002,,,X[COMP OFF LEAD]\n5.004,5,,\n"
+    program = "time,X.setpoint,X.unreferenced,command\n5,10,false,\n5.002,,,X[COMP OFF LEAD]\n5.004,5,,\n"
     assert run(folder, program) == 0
     found = results(folder)
     assert found["X.corrected_setpoint"] == [11.0, 10.0, 5.0]

@@ -40,7 +40,7 @@ def trajectory(cycles: int) -> dict[str, np.ndarray]:
         "X.setpoint": 40 * np.sin(3 * t),
         "X.velocity": 120 * np.cos(3 * t),
         "Z.setpoint": np.where(t < 0.1, 0.0, t - 0.1),
-        "Z.cross.enable": (t < 0.05) | (t > 0.3),
+        "Z.cross.switch": np.where((t < 0.05) | (t > 0.3), 1, -1),
     }
 
 

@@ -125,7 +125,7 @@ def test_volumetric_compensations_follow_their_commands() -> None:
     second = 0.05 * np.where(k < 70, smooth(k - 39), smooth(N - (k - 69)))
     assert result["X.volumetric.correction"] == pytest.approx(first + second, abs=1e-12)
     assert not result["volumetric[2].active"][:40].any()
-    assert engine.runtime.inputs.volumetric[2].factor_x == 1.0
+    assert engine.runtime.inputs.volumetric[2].reduction_x == 0.0
 
 
 def test_cfact_is_not_modal() -> None:
@@ -139,7 +139,7 @@ def test_two_factors_of_one_cycle_do_not_stay() -> None:
     result = run(engine, 4, {0: "#VOLCOMP ON [ID=2 CFACT_X=0.5] #VOLCOMP ON [ID=2 CFACT_X=0.3 NO_MOVE]"})
     assert result["X.volumetric.correction"] == pytest.approx([0.03] * 4)
     given = engine.runtime.inputs.volumetric[2]
-    assert (given.factor_x, given.no_move) == (1.0, False)
+    assert (given.reduction_x, given.no_move) == (0.0, False)
 
 
 def test_volcomp_with_no_move_moves_nothing() -> None:

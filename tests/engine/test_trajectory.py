@@ -22,10 +22,10 @@ def test_a_file_with_a_row_a_cycle_is_taken_to_the_bit() -> None:
 
 def test_other_time_grids_are_interpolated_and_switches_held(tmp_path: Path) -> None:
     file = tmp_path / "i.csv"
-    file.write_text("time,X.setpoint,X.leadscrew.enable\n0,0,true\n0.0025,5,false\n0.005,0,true\n")
+    file.write_text("time,X.setpoint,X.leadscrew.switch\n0,0,1\n0.0025,5,-1\n0.005,0,0\n")
     columns = read_input(file).sampled(DT, 0.008)
     assert columns["X.setpoint"] == pytest.approx(np.interp(np.arange(8) * DT, [0, 0.0025, 0.005], [0, 5, 0]))
-    assert columns["X.leadscrew.enable"].tolist() == [1, 1, 1, 0, 0, 1, 1, 1]
+    assert columns["X.leadscrew.switch"].tolist() == [1, 1, 1, -1, -1, 0, 0, 0]
 
 
 @pytest.mark.parametrize(

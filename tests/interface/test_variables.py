@@ -25,7 +25,7 @@ def bare(*names: str) -> Machine:
 def test_only_what_is_configured_appears_and_fault_always() -> None:
     machine = Machine((Axis(1, "X", leadscrew=Leadscrew((0.0, 1.0), (0.0, 0.0))), Axis(2, "Y")))
     names = set(by_name(variables_of(machine)))
-    assert {"X.leadscrew.enable", "X.leadscrew.correction", "X.leadscrew.active", "X.fault", "Y.fault"} <= names
+    assert {"X.leadscrew.switch", "X.leadscrew.correction", "X.leadscrew.active", "X.fault", "Y.fault"} <= names
     assert not {name for name in names if name.startswith("Y.leadscrew") or "cross" in name or "current" in name}
 
 
@@ -74,9 +74,8 @@ def test_start_values_are_those_of_the_runtime() -> None:
     machine = Machine((replace(machine.axes[0], cross=cross), *machine.axes[1:]))
     inputs = initial_inputs(compile_tables(machine).tables)
     variables = [v for v in with_causality(variables_of(machine), "input") if v.axis is not None]
-    assert by_name(variables)["X.cross.enable"].start is False
-    assert by_name(variables)["Y_ACHSE.cross.enable"].start is True
     slots = {v.name: slot_of(v, v.axis, inputs) for v in variables}
+    assert not any(v.start for v in variables)
     assert {v.name: v.start for v in variables} == {name: slot and slot.get() for name, slot in slots.items()}
 
 
@@ -110,11 +109,15 @@ def test_a_correction_depends_on_its_masters_and_on_nothing_else_that_moves() ->
         "reload",
         "X.setpoint",
         "X.velocity",
-        "X.referenced",
+        "X.unreferenced",
         "X.no_move",
         "X.released",
-        "X.leadscrew.enable",
+        "X.leadscrew.switch",
     }
+
+
+OTHER = {"Boolean": lambda old: not old, "Integer": lambda old: -1 if old >= 0 else 1, "Real": lambda old: 30.0 - old}
+"""Type → a value that differs from another one."""
 
 
 def test_no_output_changes_with_an_input_it_does_not_depend_on() -> None:
@@ -126,7 +129,7 @@ def test_no_output_changes_with_an_input_it_does_not_depend_on() -> None:
     for variable in with_causality(variables, "input"):
         columns = _columns(cycles)
         values = columns.setdefault(variable.name, [variable.start] * cycles)  # type: ignore[list-item]
-        values[at:] = [not old if isinstance(old, bool) else 30.0 - old for old in values[at:]]
+        values[at:] = [OTHER[variable.type](old) for old in values[at:]]
         other = Engine(three_axes()).run(columns)
         for output in with_causality(variables, "output"):
             if base[output.name].tolist() != other[output.name].tolist():
@@ -152,5 +155,5 @@ def _columns(cycles: int) -> dict[str, list[float | bool]]:
     columns = {name: [row[name] for row in rows] for name in rows[0]}
     columns["Y_ACHSE.setpoint"] = [5.0] * cycles
     columns["Y_ACHSE.velocity"] = [0.0] * cycles
-    columns["Y_ACHSE.cross.enable"] = [k < 20 for k in range(cycles)]
+    columns["Y_ACHSE.cross.switch"] = [1 if k < 20 else -1 for k in range(cycles)]
     return columns

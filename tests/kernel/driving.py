@@ -36,7 +36,7 @@ OUTPUTS = {
 }
 """Names of outputs in tests → their place in the record of an axis."""
 
-INPUTS = {f"{kind}_enable": f"enable[{i}]" for i, kind in enumerate(KIND_NAMES)}
+INPUTS = {f"{kind}_on": f"wanted[{i}]" for i, kind in enumerate(KIND_NAMES)} | {"referenced": "unreferenced"}
 INPUTS |= {f"temperature_{name}": f"compensation.temperature.{name}" for name in ("offset", "coefficient")}
 
 
@@ -57,8 +57,11 @@ def drive(machine: Machine | Runtime, columns: Mapping[str, ArrayLike]) -> dict[
         setters.append(slot)
     outputs: dict[str, list[Any]] = {f"{name}.{field}": [] for name in names for field in OUTPUTS}
     for row in zip(*rows.values(), strict=True):
-        for slot, value in zip(setters, row, strict=True):
-            slot.set(value)
+        for column, slot, value in zip(columns, setters, row, strict=True):
+            if column.endswith("_on"):
+                slot.set(1 if value else -1)
+            else:
+                slot.set(not value if column.endswith(".referenced") else value)
         runtime.cycle()
         for name, axis in zip(names, runtime.outputs.axis, strict=True):
             for field, path in OUTPUTS.items():

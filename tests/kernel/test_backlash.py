@@ -112,7 +112,7 @@ def test_it_acts_whether_referenced_or_not() -> None:
 
 def test_its_switch_acts_at_once_even_in_motion() -> None:
     k = np.arange(12)
-    run = drive(machine(1, 5), {"X.setpoint": -1.0 * k, "X.backlash_enable": (k < 7) | (k > 8)})
+    run = drive(machine(1, 5), {"X.setpoint": -1.0 * k, "X.backlash_on": (k < 7) | (k > 8)})
     w = soft(np.clip(np.arange(12), 0, 5), 5)
     w[7:9] = 0.0
     assert run["X.backlash_correction"] == pytest.approx(-LOSE * w, abs=1e-17)
@@ -121,9 +121,7 @@ def test_its_switch_acts_at_once_even_in_motion() -> None:
 
 def test_no_move_takes_it_into_the_shift_until_the_axis_moves() -> None:
     s = np.array([0.0, -1.0, -1.0, -1.0, -1.0, -1.0, -2.0, -2.0, -2.0, -2.0, -2.0])
-    run = drive(
-        machine(1, 3), {"X.setpoint": s, "X.backlash_enable": np.arange(11) < 4, "X.no_move": np.arange(11) > 2}
-    )
+    run = drive(machine(1, 3), {"X.setpoint": s, "X.backlash_on": np.arange(11) < 4, "X.no_move": np.arange(11) > 2})
     # full weight from cycle 3; off in cycle 4; released from cycle 6 on over 3 cycles
     assert run["X.corrected_setpoint"][3:6].tolist() == [-1.0 - LOSE] * 3
     shift = -LOSE * np.array([0, 0, 0, 0, 1, 1, *np.sin(np.pi / 6 * np.array([2, 1, 0, 0, 0])) ** 2])

@@ -60,7 +60,7 @@ def test_no_correction_shows_in_the_display(rng: np.random.Generator) -> None:
 
 
 def test_a_shift_does_not_show_in_the_display_either() -> None:
-    run = drive(machine(), {"Z.no_move": True, "Z.cross_enable": [True, True, False, False]})
+    run = drive(machine(), {"Z.no_move": True, "Z.cross_on": [True, True, False, False]})
     assert run["Z.setpoint_shift"][2:].tolist() == [0.2, 0.2]
     assert run["Z.display_position"] == pytest.approx([-run["Z.corrected_setpoint"][0]] * 4)
 

@@ -89,7 +89,7 @@ class TestCurve:
         assert (run["X.current"], run["X.corrected_setpoint"], run["X.friction_active"]) == ([0.7], [4.0], [True])
 
     def test_the_enable_input_switches_at_once_even_in_motion(self) -> None:
-        run = drive(machine(friction()), {"X.velocity": 10.0, "X.friction_enable": [True, False, False, True]})
+        run = drive(machine(friction()), {"X.velocity": 10.0, "X.friction_on": [True, False, False, True]})
         assert run["X.current"].tolist() == [0.7, 0.0, 0.0, 0.7]
 
 

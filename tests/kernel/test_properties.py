@@ -10,7 +10,7 @@ from axcomp.kinds import KIND_NAMES, Backlash, Cross, Crosstalk, CrosstalkCurve,
 from axcomp.model import Axis, Machine, ModuloRange
 from axcomp.runtime import Runtime
 
-EVENTS = ("referenced", "no_move", *(f"{kind}_enable" for kind in KIND_NAMES))
+EVENTS = ("referenced", "no_move", *(f"{kind}_on" for kind in KIND_NAMES))
 
 
 def anything(machine: Machine, seed: int, cycles: int = 90) -> dict[str, NDArray[np.float64]]:
@@ -153,7 +153,7 @@ def test_no_step_is_larger_than_slopes_ramps_and_reversals_allow(
     machine = Machine((Axis(1, "X"), Axis(2, "Y"), z))
     columns = anything(machine, seed, 200)
     for name in list(columns):
-        if name in ("Z.referenced", "Z.leadscrew_enable"):
+        if name in ("Z.referenced", "Z.leadscrew_on"):
             columns[name] = np.ones(200, bool)  # the leadscrew's switch and the loss of its reference act at once
     for name in "XYZ":
         columns[f"{name}.setpoint"] = np.clip(columns[f"{name}.setpoint"], -70.0, 70.0)

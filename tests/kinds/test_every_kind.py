@@ -114,7 +114,7 @@ def is_activated_without_a_table(kind: Kind[Any]) -> None:
     """What is written of an axis that is ready for it reads as an axis that is ready for it."""
     machine = without(machine_with(kind, reserved={kind.name: kind.reserved(None)}), kind)
     names = by_name(variables_of(machine))
-    assert {f"S.{kind.name}.enable", f"S.{kind.name}.active", output_of(kind)} <= set(names)
+    assert {f"S.{kind.name}.switch", f"S.{kind.name}.active", output_of(kind)} <= set(names)
     result = Engine(machine).run(in_motion())
     assert not result[f"S.{kind.name}.active"].any()
     assert not result[output_of(kind)].any()
@@ -148,17 +148,16 @@ def has_variables_of_its_own(kind: Kind[Any]) -> None:
     assert len(named) == len(variables)
     assert len({variable.reference for variable in variables}) == len(variables)
     first = 2 * BLOCK + kind.identifier
-    assert named[f"S.{kind.name}.enable"].reference == first
+    assert named[f"S.{kind.name}.switch"].reference == first
     assert named[f"S.{kind.name}.active"].reference == first + 1
-    assert (named[f"S.{kind.name}.enable"].causality, named[f"S.{kind.name}.active"].causality) == ("input", "output")
+    assert (named[f"S.{kind.name}.switch"].causality, named[f"S.{kind.name}.active"].causality) == ("input", "output")
     assert named[output_of(kind)].type == "Real"
     assert (f"S.{kind.name}.correction" in named) == (kind.adds_to == "setpoint")
     for own in kind.inputs:
         if own.present(EXAMPLES[kind.name]):
             variable = named[f"S.{own.name}"]
             assert (variable.causality, variable.reference) == ("input", 2 * BLOCK + own.identifier)
-            if own.field:
-                assert variable.start == getattr(EXAMPLES[kind.name], own.field)
+            assert not variable.start
     assert not [name for name in by_name(variables_of(without(machine_with(kind), kind))) if f".{kind.name}." in name]
 
 
@@ -178,7 +177,7 @@ def depends_on_what_exists(kind: Kind[Any]) -> None:
     for number, name in kind.looks_up(EXAMPLES[kind.name], slave):
         assert variables[f"{numbers[number]}.{name}"].causality == "input"
     output = variables[output_of(kind)]
-    assert {f"S.{kind.name}.enable", "S.released", "reset", "program_end"} <= set(output.depends_on or ())
+    assert {f"S.{kind.name}.switch", "S.released", "reset", "program_end"} <= set(output.depends_on or ())
 
 
 def outputs_depend_on_what_changes_them(kind: Kind[Any]) -> None:
@@ -238,7 +237,7 @@ def survives_save_and_restore(kind: Kind[Any]) -> None:
                 axis.setpoint = columns[f"{name}.setpoint"][k].item() * (-1) ** (k // 17)
                 axis.velocity = columns[f"{name}.velocity"][k].item() * (-1) ** (k // 17)
                 axis.acceleration = columns[f"{name}.acceleration"][k].item()
-            one.inputs.axis[1].enable[kind.number] = k % 11 < 8
+            one.inputs.axis[1].wanted[kind.number] = 1 if k % 11 < 8 else -1
             one.cycle()
             texts.append(repr(one.outputs))
         return texts

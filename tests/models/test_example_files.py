@@ -137,7 +137,7 @@ def test_five_axis_expected_output_leads_the_tool_along_its_way_over_the_end_of_
     assert np.any(steps > 350.0)
     assert np.any(steps < -350.0)
     error = np.linalg.norm(tip_errors(plant, raw, corrected, given["tool_length"][0]), axis=1)
-    commanded = given["volumetric[1].enable"][:-1] == 1.0
+    commanded = given["volumetric[1].switch"][:-1] == 0.0
     switching = np.convolve(commanded == 0.0, np.ones(41), "same") > 0
     assert np.max(error[~switching]) < 0.25
     assert np.max(error[~commanded]) > 10.0

@@ -54,7 +54,7 @@ def way_back(towards: npt.NDArray[np.bool_], cycles: int) -> Array:
 
 def temperature(given: dict[str, Array]) -> Array:
     """offset + coefficient · (s − 20 mm); after a change the difference runs out by sin² over 15 cycles."""
-    offset, coefficient = given["X.temperature.offset"], given["X.temperature.coefficient"]
+    offset, coefficient = 0.0015 + given["X.temperature.offset"], 12e-6 + given["X.temperature.coefficient"]
     value = offset + coefficient * (given["X.setpoint"] - 20.0)
     for change in np.flatnonzero((np.diff(offset) != 0.0) | (np.diff(coefficient) != 0.0)) + 1:
         left = np.arange(14.0, -1.0, -1.0)
@@ -70,7 +70,7 @@ def test_there_is_nothing_to_say_about_its_lists_and_all_of_them_act() -> None:
 
 
 def test_offset_and_coefficient_start_as_listed_and_change_once_each(given: dict[str, Array]) -> None:
-    assert (given["X.temperature.offset"][0], given["X.temperature.coefficient"][0]) == (0.0015, 12e-6)
+    assert (given["X.temperature.offset"][0], given["X.temperature.coefficient"][0]) == (0.0, 0.0)
     (warmer,) = np.flatnonzero(np.diff(given["X.temperature.offset"])) + 1
     (grown,) = np.flatnonzero(np.diff(given["X.temperature.coefficient"])) + 1
     position = given["X.setpoint"]

@@ -45,6 +45,11 @@ def bits(value: Any) -> Any:
     return value if isinstance(value, int) else [bits(getattr(value, name)) for name in fields_of(type(value))]
 
 
+def commanded(wanted: int, source: random.Random) -> int:
+    """Return a switch that now and then changes, seldom to what commands nothing."""
+    return source.choice([-1, 0, 1, 1, 0, 7]) if source.random() < 0.05 else wanted
+
+
 def move(given: AxisInputs, source: random.Random) -> None:
     """Go on by a step, now and then with a command, a fault of the input or a rest."""
     if source.random() < 0.8:
@@ -55,11 +60,11 @@ def move(given: AxisInputs, source: random.Random) -> None:
     else:
         given.velocity = given.acceleration = 0.0
     for name, hint in fields_of(AxisInputs).items():
-        if name in ("referenced", "fault"):
-            setattr(given, name, (name == "referenced") != (source.random() < 0.003))
+        if name in ("unreferenced", "fault"):
+            setattr(given, name, source.random() < 0.003)
         elif hint is bool and source.random() < 0.05:
             setattr(given, name, not getattr(given, name))
-    given.enable[:] = [enable != (source.random() < 0.05) for enable in given.enable]
+    given.wanted[:] = [commanded(wanted, source) for wanted in given.wanted]
     if source.random() < 0.05:
         temperature, friction = given.compensation.temperature, given.compensation.friction
         temperature.offset = source.choice([source.uniform(-0.1, 0.1), float("nan"), float("inf")])
@@ -95,9 +100,9 @@ def check(native_cycle: Any, machine: Machine, seed: int, cycles: int) -> list[f
         for axis in inputs.axis:
             move(axis, source)
         for command in inputs.volumetric:
-            command.enable = command.enable != (source.random() < 0.05)
+            command.wanted = commanded(command.wanted, source)
             command.no_move = source.random() < 0.2
-            command.factor_x, command.factor_y, command.factor_z = source.choices([0.0, 0.5, 1.0], k=3)
+            command.reduction_x, command.reduction_y, command.reduction_z = source.choices([0.0, 0.3, 1.0], k=3)
         to_c(inputs, structs[2])
         cycle(tables, pool, state, inputs, outputs)
         native_cycle(ctypes.byref(structs[0]), numbers, *map(ctypes.byref, structs[1:]))

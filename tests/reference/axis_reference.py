@@ -40,12 +40,12 @@ class Row:
     velocity: float = 0.0
     acceleration: float = 0.0
     actual_position: float = 0.0
-    referenced: bool = True
+    unreferenced: bool = False
     fault: bool = False
     no_move: bool = False
     released: bool = False
-    enable: dict[str, bool] = field(default_factory=dict)
-    offset: float = 0.0
+    switch: dict[str, int] = field(default_factory=dict)
+    offset: float = 0.0  # beyond what the lists say, as the coefficient
     coefficient: float = 0.0
     ahead_known: bool = False
     velocity_ahead: tuple[float, ...] = ()
@@ -130,21 +130,19 @@ class Switch:
         self.kind = kind
         self.manual = compensation.manual_activation
         self.walk = Walk(compensation.n_cycles, 0)
-        self.asked = self.granted = self.enabled = self.no_move = False
-        self.begun = False
+        self.asked = self.granted = self.no_move = self.begun = False
+        self.said: int | None = None
 
-    def weigh(
-        self, enable: bool, taken_off: bool, conditions: bool, stands: bool, no_move: bool
-    ) -> tuple[float, float]:
+    def weigh(self, said: int, taken_off: bool, conditions: bool, stands: bool, no_move: bool) -> tuple[float, float]:
         """Return the weight in this cycle, and what part of the value NO_MOVE keeps in the setpoint.
 
         ``taken_off``: reset, program end, or the axis is given back.
         """
-        if enable != self.enabled:
-            self.enabled = enable
-            refused = enable and self.manual and (taken_off or not conditions)
+        if said != self.said:
+            self.said, on = said, self.means_on(said)
+            refused = on and self.manual and (taken_off or not conditions)
             if not refused:
-                self.asked, self.no_move = enable, no_move
+                self.asked, self.no_move = on, no_move
         if self.manual and self.asked and taken_off:
             self.asked, self.no_move = False, no_move
         if not self.begun:
@@ -164,9 +162,14 @@ class Switch:
         """Be off for want of a table."""
         self.walk.step = 0
 
-    def come_back(self, enable: bool) -> None:
-        """Have a table again: what is automatic needs neither command nor standstill."""
-        self.enabled = self.asked = self.granted = enable
+    def means_on(self, said: int) -> bool:
+        """Tell what an input means: 1 on, −1 off, 0 as the lists activate."""
+        return {1: True, -1: False, 0: not self.manual}[said]
+
+    def come_back(self, said: int, *, at_once: bool) -> None:
+        """Be automatic: that needs no command, and no standstill where there was no table."""
+        self.said, self.asked, self.no_move = said, self.means_on(said), False
+        self.granted = self.asked if at_once else self.granted
 
 
 class Shift:
@@ -284,8 +287,8 @@ class AxisReference:
         weights = {}
         for kind in self.compensations:
             switch = self.switches[kind]
-            conditions = all(axes[number].row.referenced for number in self.needs(kind))
-            weights[kind] = switch.weigh(row.enable[kind], taken_off, conditions, self.stands, row.no_move)
+            conditions = not any(axes[number].row.unreferenced for number in self.needs(kind))
+            weights[kind] = switch.weigh(row.switch[kind], taken_off, conditions, self.stands, row.no_move)
         self.shift.cycle(not self.stands, self.longest)
         found: dict[str, float] = {}
         for kind in ON_SETPOINT:
@@ -351,7 +354,8 @@ class AxisReference:
 
     def _take_line(self, weight: float) -> None:
         """Absorb the difference that another offset or coefficient makes."""
-        line = (self.row.offset, self.row.coefficient)
+        listed = self.compensations["temperature"]
+        line = (listed.offset + self.row.offset, listed.coefficient + self.row.coefficient)
         if self.line is not None and line != self.line:
             difference = weight * (self._growth(self.line) - self._growth(line))
             self.rests["temperature"].absorb(difference, self.compensations["temperature"].n_cycles)
@@ -365,7 +369,7 @@ class AxisReference:
 
     def _comes_at_once(self, kind: str, axes: dict[int, AxisReference]) -> bool:
         """Tell whether a compensation that had no table is on after a single step: then its values come in softly."""
-        on = self.switches[kind].granted and all(axes[number].row.referenced for number in self.needs(kind))
+        on = self.switches[kind].granted and not any(axes[number].row.unreferenced for number in self.needs(kind))
         return on and self.switches[kind].walk.length == 1
 
     def _begin_again(self, kind: str) -> None:
@@ -434,13 +438,13 @@ class AxisReference:
                 switch.drop()
             else:
                 cycles = self.blending(kind)
-                switch.manual = new[kind].manual_activation
+                was_manual, switch.manual = switch.manual, new[kind].manual_activation
                 if kind not in had:
                     self._begin_again(kind)
                 if kind == "leadscrew" and _alone(had.get(kind)) != _alone(new[kind]):
                     self.screw_motion.place = self._screw_position()
-                if kind not in had and not switch.manual:
-                    switch.come_back(self.row.enable[kind])
+                if not switch.manual and (was_manual or kind not in had):
+                    switch.come_back(self.row.switch[kind], at_once=kind not in had)
                 switch.walk.stretch(new[kind].n_cycles)
                 if kind not in had and self._comes_at_once(kind, axes):
                     weight = switch.walk.step = 1

@@ -245,12 +245,12 @@ def held(rng: np.random.Generator, cycles: int, share: float, *, long: float = 4
 def rows(rng: np.random.Generator, cycles: int, of: Axis) -> list[Row]:
     """Draw everything one axis gets."""
     moved = course(rng, cycles, of)
-    enable = {kind: held(rng, cycles, 0.65) for kind in ALL_KINDS}
-    flags = {"referenced": held(rng, cycles, 0.85), "fault": held(rng, cycles, 0.05), "no_move": held(rng, cycles, 0.3)}
+    switch = {kind: np.select([held(rng, cycles, 0.5), held(rng, cycles, 0.5)], [0, 1], -1) for kind in ALL_KINDS}
+    shares = {"unreferenced": 0.15, "fault": 0.05, "no_move": 0.3}
+    flags = {name: held(rng, cycles, share) for name, share in shares.items()}
     flags["released"] = held(rng, cycles, 0.1, long=15.0)
-    line = of.temperature or Temperature()
-    offset = line.offset + 0.02 * np.cumsum(rng.random(cycles) < 0.02)
-    coefficient = np.where(held(rng, cycles, 0.5), line.coefficient, line.coefficient + 2e-5)
+    offset = 0.02 * np.cumsum(rng.random(cycles) < 0.02)
+    coefficient = np.where(held(rng, cycles, 0.5), 0.0, 2e-5)
     known = _chance(rng)
     ahead = np.concatenate([moved.velocity, np.full(4, moved.velocity[-1])])
     noise = rng.normal(0.0, 1e-3, cycles)
@@ -261,7 +261,7 @@ def rows(rng: np.random.Generator, cycles: int, of: Axis) -> list[Row]:
             float(moved.acceleration[k]),
             float(moved.setpoint[k] + noise[k]),
             **{name: bool(column[k]) for name, column in flags.items()},
-            enable={kind: bool(column[k]) for kind, column in enable.items()},
+            switch={kind: int(column[k]) for kind, column in switch.items()},
             offset=float(offset[k]),
             coefficient=float(coefficient[k]),
             ahead_known=known,

@@ -19,10 +19,10 @@ def give(runtime: Runtime, rows: list[Row]) -> None:
     for axis, row in zip(runtime.inputs.axis, rows, strict=True):
         for name in ("setpoint", "velocity", "acceleration", "actual_position"):
             setattr(axis, name, getattr(row, name))
-        for name in ("referenced", "fault", "no_move", "released"):
+        for name in ("unreferenced", "fault", "no_move", "released"):
             setattr(axis, name, getattr(row, name))
         for number, kind in enumerate(KIND_NAMES):
-            axis.enable[number] = row.enable[kind]
+            axis.wanted[number] = row.switch[kind]
         axis.compensation.temperature.offset = row.offset
         axis.compensation.temperature.coefficient = row.coefficient
         axis.compensation.friction.ahead_known = row.ahead_known

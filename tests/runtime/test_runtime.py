@@ -49,9 +49,9 @@ def move(runtime: Runtime, k: int) -> None:
         axis.setpoint = 40.0 * np.clip(np.sin(phase), -0.9, 0.9).item()
         axis.velocity = 2e3 * np.cos(phase).item() if abs(np.sin(phase)) < 0.9 else 0.0
         axis.acceleration = -1e5 * np.sin(phase).item()
-        axis.enable[CROSS] = (k // 40) % 2 == 0
+        axis.wanted[CROSS] = 1 if (k // 40) % 2 == 0 else -1
         axis.no_move = (k // 60) % 2 == 0
-        axis.enable[LEADSCREW] = (k // 25) % 3 < 2
+        axis.wanted[LEADSCREW] = 1 if (k // 25) % 3 < 2 else -1
 
 
 def run(runtime: Runtime, first: int, last: int) -> list[str]:
@@ -271,7 +271,7 @@ class TestUpdate:
         # 6 of 10 steps are 2 of 3: the ramp goes on where it is, not from its end
         runtime = Runtime(MACHINE)
         runtime.cycle()
-        runtime.inputs.axis[1].enable[CROSS] = False
+        runtime.inputs.axis[1].wanted[CROSS] = -1
         for _ in range(4):
             runtime.cycle()
         runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, n_cycles=3)))))
@@ -286,9 +286,9 @@ class TestUpdate:
     @pytest.mark.parametrize("steps", range(11))
     def test_a_ramp_that_is_under_way_keeps_its_weight(self, steps: int, after: int, up: bool) -> None:
         runtime = Runtime(MACHINE)
-        runtime.inputs.axis[1].enable[CROSS] = not up
+        runtime.inputs.axis[1].wanted[CROSS] = -1 if up else 1
         runtime.cycle()
-        runtime.inputs.axis[1].enable[CROSS] = up
+        runtime.inputs.axis[1].wanted[CROSS] = 1 if up else -1
         for _ in range(steps):
             runtime.cycle()
         at = steps if up else 10 - steps
@@ -308,7 +308,7 @@ class TestUpdate:
             runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, n_cycles=cycles)))))
             weights = []
             for k in range(cycles + 3):
-                runtime.inputs.axis[1].enable[CROSS] = k < 2
+                runtime.inputs.axis[1].wanted[CROSS] = 1 if k < 2 else -1
                 runtime.cycle()
                 weights.append(runtime.outputs.axis[1].contribution[CROSS] / (0.1 * np.cos(0.0)))
             k = np.clip(np.append([cycles, cycles], np.arange(cycles - 1, -2, -1)), 0, cycles)
@@ -418,7 +418,6 @@ class TestUpdate:
     def test_a_table_may_come_for_a_kind_that_was_activated_without_one(self) -> None:
         runtime = Runtime(Machine((X, replace(Z, cross=None, reserved={"cross": 1001}))))
         runtime.cycle()
-        assert runtime.inputs.axis[1].enable[CROSS]
         assert (runtime.outputs.axis[1].contribution[CROSS], runtime.outputs.axis[1].active[CROSS]) == (0.0, False)
         assert runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, max_points=1000))))) == {"Z": 110639}
         assert runtime.update(MACHINE) == {}
@@ -448,7 +447,7 @@ class TestUpdate:
         runtime.update(Machine((X, replace(Z, cross=replace(Z.cross, manual_activation=True)))))
         active = []
         for k in range(9):
-            runtime.inputs.axis[1].enable[CROSS] = k != 5  # true from the start: no edge is a command
+            runtime.inputs.axis[1].wanted[CROSS] = 1 if k > 5 else 0
             runtime.cycle()
             active.append(runtime.outputs.axis[1].active[CROSS])
         assert active == [False] * 6 + [True] * 3
@@ -456,7 +455,7 @@ class TestUpdate:
     def test_a_table_that_was_commanded_off_comes_back_off(self) -> None:
         runtime = Runtime(MACHINE)
         runtime.cycle()
-        runtime.inputs.axis[1].enable[CROSS] = False
+        runtime.inputs.axis[1].wanted[CROSS] = -1
         for _ in range(20):
             runtime.cycle()
         for new in (Machine((X, replace(Z, cross=None))), MACHINE):
@@ -601,7 +600,7 @@ class TestUpdate:
         axis = runtime.inputs.axis[1]
         axis.no_move = True
         runtime.cycle()
-        axis.enable[CROSS] = False
+        axis.wanted[CROSS] = -1
         runtime.cycle()
         for k in range(6):
             axis.setpoint = 1.0 + k
@@ -622,7 +621,7 @@ class TestUpdate:
         axis = runtime.inputs.axis[1]
         axis.no_move = True
         runtime.cycle()
-        axis.enable[CROSS] = False
+        axis.wanted[CROSS] = -1
         runtime.cycle()
         axis.setpoint = 1.0
         for _ in range(4):
@@ -705,14 +704,3 @@ def test_an_empty_machine_runs() -> None:
     runtime.advance(1.0)
     assert (runtime.cycles, runtime.outputs.axis) == (1000, [])
     runtime.restore(runtime.save())
-
-
-def test_inputs_begin_referenced_and_enabled_where_activation_is_automatic() -> None:
-    manual = replace(Z, plane=replace(Z.plane, manual_activation=True))
-    inputs = Runtime(Machine((X, manual))).inputs
-    flags = [
-        (a.referenced, a.enable[CROSS], a.enable[PLANE], a.enable[CROSSTALK], a.enable[LEADSCREW], a.enable[FRICTION])
-        for a in inputs.axis
-    ]
-    assert flags == [(True, False, False, False, True, True), (True, True, False, True, False, False)]
-    assert not any(a.fault or a.no_move for a in inputs.axis)

@@ -104,7 +104,7 @@ def test_the_identity_is_of_all_numbers() -> None:
 def test_the_kernels_records_survive() -> None:
     records = zero(State), zero(Inputs), zero(Outputs)
     records[0].axis[31].compensation.friction.line[248] = math.inf
-    records[1].axis[3].referenced = True
+    records[1].axis[3].unreferenced = True
     records[2].axis[0].error = 110641
     data = pack(9, *records)
     fresh = zero(State), zero(Inputs), zero(Outputs)

@@ -23,22 +23,14 @@ def spec_of(folder: Path, content: dict) -> Spec:
 
 
 def test_every_combination_is_run_the_last_key_fastest(tmp_path: Path) -> None:
-    extra = [{"input X.plane.enable": True}, {"input X.plane.enable": False}]
+    extra = [{"input X.plane.switch": 1}, {"input X.plane.switch": -1}]
     spec = spec_of(tmp_path, {**GOOD, "runs": extra, "machine": [GOOD["machine"]] * 2})
     runs = list(spec.every_run())
     assert [run.index for run in runs] == list(range(spec.count)) == list(range(24))
     assert [run.machine for run in runs] == [0] * 12 + [1] * 12
     rows = [list(run.values.values()) for run in runs]
-    assert rows[:7] == [
-        [True, 0, 0],
-        [True, 0, 5],
-        [True, 0, 10],
-        [True, 1, 0],
-        [True, 1, 5],
-        [True, 1, 10],
-        [False, 0, 0],
-    ]
-    assert [s.key for s in spec.settings] == ["input X.plane.enable", *GOOD["vary"]]
+    assert rows[:7] == [[1, 0, 0], [1, 0, 5], [1, 0, 10], [1, 1, 0], [1, 1, 5], [1, 1, 10], [-1, 0, 0]]
+    assert [s.key for s in spec.settings] == ["input X.plane.switch", *GOOD["vary"]]
 
 
 def test_toml_and_json_mean_the_same(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ def spec_of(folder: Path, **changes):
     content = {
         "machine": str(MODEL),
         "input": {"file": str(MODEL / "input.csv")},
-        "vary": {"scale Y.leadscrew": [0.0, 1.0, 2.0], "input X.plane.enable": [False, True]},
+        "vary": {"scale Y.leadscrew": [0.0, 1.0, 2.0], "input X.plane.switch": [-1, 1]},
         "results": {
             "peak": "peak X.correction",
             "rms": "rms Y.corrected_setpoint - Y.setpoint",
@@ -46,8 +46,8 @@ def test_rows_are_those_of_an_engine_run_by_hand(tmp_path: Path) -> None:
     rows = rows_of(spec_of(tmp_path))
     table = np.genfromtxt(MODEL / "input.csv", delimiter=",", names=True, deletechars="")
     inputs = {name: table[name] for name in table.dtype.names if name != "time"}
-    for row, enabled in ((rows[2], False), (rows[3], True)):
-        result = Engine(MODEL).run({**inputs, "X.plane.enable": np.full(len(table), enabled)})
+    for row, switch in ((rows[2], -1), (rows[3], 1)):
+        result = Engine(MODEL).run({**inputs, "X.plane.switch": np.full(len(table), switch)})
         assert row[ERROR] == ""
         assert row["peak"] == np.abs(result["X.correction"]).max()
         assert row["rms"] == pytest.approx(
@@ -117,7 +117,7 @@ def test_keys_change_with_everything_that_decides_a_row(tmp_path: Path) -> None:
     base = key()
     assert len(set(base)) == 6
     assert key() == base
-    longer = key(vary={"scale Y.leadscrew": [1.0, 2.0, 3.0], "input X.plane.enable": [False, True]})
+    longer = key(vary={"scale Y.leadscrew": [1.0, 2.0, 3.0], "input X.plane.switch": [-1, 1]})
     assert set(longer) & set(base) == set(base[2:])
     for changes in (
         {"cycle_time": 0.002},
@@ -169,11 +169,11 @@ def test_a_picture_has_a_line_for_each_combination_of_the_rest(tmp_path: Path) -
         for run, key in zip(runs, keys_of(job, runs), strict=True):
             journal.add(key, perform(job, run))
     sweep = run_sweep(spec, job, tmp_path / "r.csv")
-    assert sweep.varied == ("scale Y.leadscrew", "input X.plane.enable")
+    assert sweep.varied == ("scale Y.leadscrew", "input X.plane.switch")
     ax = sweep.plot("scale Y.leadscrew", "at")
-    assert [line.get_label() for line in ax.lines] == [f"input X.plane.enable = {on}" for on in (False, True)]
-    for line, on in zip(ax.lines, (False, True), strict=True):
-        chosen = sweep.table[sweep.table["input X.plane.enable"] == on]
+    assert [line.get_label() for line in ax.lines] == [f"input X.plane.switch = {on}" for on in (-1, 1)]
+    for line, on in zip(ax.lines, (-1, 1), strict=True):
+        chosen = sweep.table[sweep.table["input X.plane.switch"] == on]
         assert line.get_xdata().tolist() == [0.0, 1.0, 2.0]
         assert line.get_ydata().tolist() == chosen["at"].tolist()
     with pytest.raises(ValueError, match="there is no column nothing of numbers; there are run"):
@@ -207,7 +207,7 @@ def test_an_fmu_gives_the_rows_of_the_engine(tmp_path: Path) -> None:
         "Path(sys.argv[2]).write_text(json.dumps(rows))\n"
     )
     spec = spec_of(
-        tmp_path, machine=["axcomp.fmu", str(MODEL)], vary={"input X.plane.enable": [False, True]}, duration=0.3,
+        tmp_path, machine=["axcomp.fmu", str(MODEL)], vary={"input X.plane.switch": [-1, 1]}, duration=0.3,
         results={"peak": "peak X.correction", "at": "at 0.2 Y.corrected_setpoint", "on": "last X.plane.active"},
     )  # fmt: skip
     # In a process of its own: an embedded interpreter may fail when the process ends.

@@ -49,7 +49,7 @@ class Bench:
 
     def set_factors(self, x: float, y: float, z: float) -> None:
         given = self.given[0]
-        given.factor_x, given.factor_y, given.factor_z = x, y, z
+        given.reduction_x, given.reduction_y, given.reduction_z = 1.0 - x, 1.0 - y, 1.0 - z
 
     @property
     def corrections(self) -> list[float]:

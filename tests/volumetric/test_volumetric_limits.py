@@ -70,7 +70,7 @@ def test_an_axis_in_error_stops_all_others_that_take_part(faulty: int) -> None:
 def test_a_lost_reference_stops_nobody() -> None:
     bench = Bench(shifted())
     bench.run()
-    bench.inputs.axis[1].referenced = False
+    bench.inputs.axis[1].unreferenced = True
     bench.run(3)
     assert not any(bench.stops)
 
@@ -80,13 +80,13 @@ def test_a_switch_is_no_faster_than_v_limit() -> None:
     free, slow = Bench(shifted(manual_activation=True)), slowed(shifted(manual_activation=True), velocity=0.5)
     for bench, fastest, cycles in ((free, 3.75, N), (slow, 0.5, 150)):
         bench.run()
-        bench.given[0].enable = True
+        bench.given[0].wanted = 1
         path = np.vstack([np.zeros(3), bench.run(200)])
         speeds = np.abs(np.diff(path, axis=0)) / T
         assert 0.98 * fastest <= speeds.max() <= fastest * (1 + 1e-9)
         assert path[cycles] == pytest.approx(VALUES)
         assert np.abs(path[cycles - 2] - VALUES).max() > 1e-9
-        bench.given[0].enable = False
+        bench.given[0].wanted = -1
         path = np.vstack([VALUES, bench.run(200)])
         assert np.abs(np.diff(path, axis=0)).max() / T <= fastest * (1 + 1e-9)
         assert path[-1] == pytest.approx(np.zeros(3), abs=1e-15)
@@ -98,10 +98,10 @@ def test_v_limit_holds_while_a_shift_is_taken_back_along_the_switch() -> None:
     bench.inputs.reset = True
     bench.run()
     bench.inputs.reset = False
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     bench.run()
     bench.set_factors(0.0, 0.0, 0.0)
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     path = np.vstack([VALUES, bench.run(400)])
     assert path[-1] == pytest.approx(np.zeros(3), abs=1e-15)
     assert np.abs(np.diff(path, axis=0)).max() / T <= 0.5 * (1 + 1e-9)
@@ -110,7 +110,7 @@ def test_v_limit_holds_while_a_shift_is_taken_back_along_the_switch() -> None:
 def test_without_motion_nothing_is_slow() -> None:
     bench = slowed(shifted(manual_activation=True), velocity=0.5)
     bench.run()
-    bench.given[0].enable = bench.given[0].no_move = True
+    bench.given[0].wanted, bench.given[0].no_move = 1, True
     assert not bench.run(3).any()
     assert bench.corrections == pytest.approx(VALUES)
 
@@ -120,7 +120,7 @@ def test_the_slower_of_gantry_master_and_slave_counts() -> None:
     slave = Axis(12, "Z2", volumetric_limit=1.0, volumetric_velocity=0.5, gantry_master=3)
     bench = Bench(machine=replace(machine, axes=(*machine.axes, slave)))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert np.abs(np.diff(bench.run(160), axis=0)).max() / T <= 0.5 * (1 + 1e-9)
 
 
@@ -171,11 +171,11 @@ def test_another_tool_length_midway_goes_on_from_where_it_is() -> None:
 
 def test_a_tool_length_is_taken_at_once_while_the_compensation_is_off() -> None:
     bench = tilted(filter_steps=0)
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     bench.run()
     bench.inputs.tool_length = 200.0
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert bench.run()[0, 0] == pytest.approx(0.2, rel=1e-5)
 
 

@@ -22,9 +22,9 @@ def test_a_manual_compensation_waits_for_its_command() -> None:
     bench = Bench(shifted(manual_activation=True))
     assert not bench.run(3).any()
     assert not bench.active()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert bench.run(N + 5) == pytest.approx(smooth(np.arange(1, N + 6))[:, None] * VALUES, abs=1e-15)
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     assert bench.run(N + 5) == pytest.approx(smooth(N - np.arange(1, N + 6))[:, None] * VALUES, abs=1e-15)
     assert not bench.active()
 
@@ -32,9 +32,9 @@ def test_a_manual_compensation_waits_for_its_command() -> None:
 def test_a_change_of_mind_midway_turns_round_where_it_is() -> None:
     bench = Bench(shifted())
     bench.run()
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     bench.run(7)
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert bench.run(9) == pytest.approx(smooth(N - 7 + np.arange(1, 10))[:, None] * VALUES, abs=1e-15)
 
 
@@ -42,9 +42,9 @@ def test_a_change_of_mind_midway_turns_round_where_it_is() -> None:
 def test_without_filter_a_switch_is_immediate(filter_steps: int) -> None:
     bench = Bench(shifted(manual_activation=True, filter_steps=filter_steps))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert bench.run() == pytest.approx(VALUES[None])
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     assert not bench.run().any()
 
 
@@ -59,10 +59,10 @@ def test_the_filter_does_not_touch_the_moving_value() -> None:
 
 def test_automatic_activation_waits_until_all_axes_are_referenced_and_free_of_error() -> None:
     bench = Bench(shifted())
-    bench.inputs.axis[5].referenced = False
+    bench.inputs.axis[5].unreferenced = True
     bench.inputs.axis[2].fault = True
     assert not bench.run(3).any()
-    bench.inputs.axis[5].referenced = True
+    bench.inputs.axis[5].unreferenced = False
     assert not bench.run(3).any()
     bench.inputs.axis[2].fault = False
     assert bench.run(N)[-1] == pytest.approx(VALUES)
@@ -70,7 +70,7 @@ def test_automatic_activation_waits_until_all_axes_are_referenced_and_free_of_er
 
 def test_an_axis_that_does_not_take_part_does_not_matter() -> None:
     bench = Bench(shifted())
-    bench.inputs.axis[3].referenced = False
+    bench.inputs.axis[3].unreferenced = True
     bench.inputs.axis[4].fault = True
     assert bench.run() == pytest.approx(VALUES[None])
 
@@ -78,7 +78,7 @@ def test_an_axis_that_does_not_take_part_does_not_matter() -> None:
 def test_with_no_move_the_setpoint_stands_still_and_keeps_its_shift() -> None:
     bench = Bench(shifted(manual_activation=True))
     bench.run()
-    bench.given[0].enable = bench.given[0].no_move = True
+    bench.given[0].wanted, bench.given[0].no_move = 1, True
     assert not bench.run(5).any()
     assert bench.corrections == pytest.approx(VALUES)
     assert bench.shifts == pytest.approx(-VALUES)
@@ -88,11 +88,11 @@ def test_with_no_move_the_setpoint_stands_still_and_keeps_its_shift() -> None:
     assert moved[:, 0] == pytest.approx(smooth(np.arange(1, N + 1)) * VALUES[0], abs=1e-15)
     assert moved[:, 1:] == pytest.approx(np.zeros((N, 2)), abs=1e-15)
     bench.inputs.axis[0].velocity = 0.0
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     assert bench.run(3) == pytest.approx(np.tile([VALUES[0], 0.0, 0.0], (3, 1)), abs=1e-15)
     assert bench.corrections == [0.0] * 3
     # A switch with motion takes the shifts back too.
-    bench.given[0].enable, bench.given[0].no_move = True, False
+    bench.given[0].wanted, bench.given[0].no_move = 1, False
     assert bench.run(N + 2)[-1] == pytest.approx(VALUES)
     assert bench.shifts == [0.0] * 3
 
@@ -100,9 +100,9 @@ def test_with_no_move_the_setpoint_stands_still_and_keeps_its_shift() -> None:
 def test_a_shift_is_taken_back_along_the_next_switch() -> None:
     bench = Bench(shifted(manual_activation=True))
     bench.run()
-    bench.given[0].enable = bench.given[0].no_move = True
+    bench.given[0].wanted, bench.given[0].no_move = 1, True
     bench.run()
-    bench.given[0].enable = bench.given[0].no_move = False
+    bench.given[0].wanted, bench.given[0].no_move = -1, False
     found = bench.run(N + 2)
     assert found == pytest.approx(np.zeros((N + 2, 3)), abs=1e-15)
     assert bench.shifts == [0.0] * 3
@@ -111,10 +111,10 @@ def test_a_shift_is_taken_back_along_the_next_switch() -> None:
 def test_after_switching_off_with_no_move_the_offset_stays_until_the_next_switch() -> None:
     bench = Bench(shifted())
     bench.run()
-    bench.given[0].enable, bench.given[0].no_move = False, True
+    bench.given[0].wanted, bench.given[0].no_move = -1, True
     assert bench.run(40) == pytest.approx(np.tile(VALUES, (40, 1)))
     assert not bench.active()
-    bench.given[0].enable, bench.given[0].no_move = True, False
+    bench.given[0].wanted, bench.given[0].no_move = 1, False
     assert bench.run(N + 1) == pytest.approx(np.tile(VALUES, (N + 1, 1)))
     assert bench.shifts == [0.0] * 3
 
@@ -128,9 +128,9 @@ def test_reset_switches_off_without_motion_until_the_next_command() -> None:
     assert bench.run(40) == pytest.approx(np.tile(2 * VALUES, (40, 1)))
     assert not bench.active(0)
     assert not bench.active(3)
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert bench.run(40)[-1] == pytest.approx(2 * VALUES)
     assert bench.corrections == pytest.approx(VALUES)
 
@@ -138,7 +138,7 @@ def test_reset_switches_off_without_motion_until_the_next_command() -> None:
 def test_reset_in_mid_ramp_holds_the_output() -> None:
     bench = Bench(shifted(manual_activation=True))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     last = bench.run(9)[-1]
     bench.inputs.reset = True
     assert bench.run(5) == pytest.approx(np.tile(last, (5, 1)))
@@ -156,9 +156,9 @@ def test_an_axis_in_error_keeps_its_value_and_the_others_run_down(faulty: int, a
     # It stays off when the error has gone, until the next command.
     bench.inputs.axis[faulty].fault = False
     assert bench.run(5) == pytest.approx(np.tile(expected[-1], (5, 1)), abs=1e-15)
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     assert bench.run(N)[-1] == pytest.approx(VALUES)
     assert bench.shifts == [0.0] * 3
 
@@ -166,10 +166,10 @@ def test_an_axis_in_error_keeps_its_value_and_the_others_run_down(faulty: int, a
 def test_a_lost_reference_keeps_the_value_and_automatic_activation_comes_back_after_it() -> None:
     bench = Bench(shifted())
     bench.run()
-    bench.inputs.axis[1].referenced = False
+    bench.inputs.axis[1].unreferenced = True
     offsets = bench.run(5)
     assert offsets[:, 1] == pytest.approx([VALUES[1]] * 5)
-    bench.inputs.axis[1].referenced = True
+    bench.inputs.axis[1].unreferenced = False
     # Y can only come back when X and Z have run down; nothing jumps on the way.
     offsets = np.vstack([offsets, bench.run(60)])
     assert offsets[-1] == pytest.approx(VALUES)
@@ -180,11 +180,11 @@ def test_a_lost_reference_keeps_the_value_and_automatic_activation_comes_back_af
 def test_a_manual_compensation_ends_with_a_reference() -> None:
     bench = Bench(shifted(manual_activation=True))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     bench.run(N)
-    bench.inputs.axis[5].referenced = False
+    bench.inputs.axis[5].unreferenced = True
     assert bench.run(N)[-1] == pytest.approx([0.0] * 3)
-    bench.inputs.axis[5].referenced = True
+    bench.inputs.axis[5].unreferenced = False
     assert not bench.run(N).any()
     assert bench.errors == [0] * 6
 
@@ -193,7 +193,7 @@ def test_a_manual_compensation_ends_with_a_reference() -> None:
 def test_program_end_does_not_concern_a_compensation_of_no_channel(manual: bool) -> None:
     bench = Bench(shifted(manual_activation=manual))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     bench.run(N)
     bench.inputs.program_end = True
     assert bench.run(30) == pytest.approx(np.tile(VALUES, (30, 1)))
@@ -204,7 +204,7 @@ def test_program_end_does_not_concern_a_compensation_of_no_channel(manual: bool)
 def test_program_end_is_an_error_for_a_compensation_of_the_channel(manual: bool) -> None:
     bench = Bench(shifted(associate_to_channel=True, manual_activation=manual))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     bench.run(N)
     bench.inputs.program_end = True
     assert bench.run(30) == pytest.approx(np.tile(VALUES, (30, 1)))
@@ -234,9 +234,9 @@ def test_a_compensation_without_limits_cannot_be_switched_on() -> None:
     bench.run()
     bench.inputs.reset = False
     assert bench.errors == [0] * 6
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     bench.run()
     assert bench.errors == [0, 911, 0, 0, 0, 0]
 
@@ -321,9 +321,9 @@ def test_a_factor_counts_from_the_next_switch_on_and_never_jumps() -> None:
     bench.run()
     bench.set_factors(0.5, 0.5, 0.5)
     assert bench.run(3) == pytest.approx(np.tile(VALUES, (3, 1)))
-    bench.given[0].enable = False
+    bench.given[0].wanted = -1
     offsets = bench.run(5)
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     offsets = np.vstack([offsets, bench.run(2 * N)])
     assert offsets[-1] == pytest.approx(0.5 * VALUES)
     assert np.abs(np.diff(offsets, axis=0)).max() < 0.1 * np.abs(VALUES).max()
@@ -331,16 +331,16 @@ def test_a_factor_counts_from_the_next_switch_on_and_never_jumps() -> None:
 
 def test_a_command_keeps_its_no_move_and_its_factors_until_it_can_be_obeyed() -> None:
     bench = Bench(shifted())
-    bench.given[0].enable = False
-    bench.inputs.axis[5].referenced = False
+    bench.given[0].wanted = -1
+    bench.inputs.axis[5].unreferenced = True
     bench.run()
-    bench.given[0].enable = bench.given[0].no_move = True
+    bench.given[0].wanted, bench.given[0].no_move = 1, True
     bench.set_factors(0.5, 0.5, 0.5)
     bench.run()
     bench.given[0].no_move = False
     bench.set_factors(1.0, 1.0, 1.0)
     bench.run(3)
-    bench.inputs.axis[5].referenced = True
+    bench.inputs.axis[5].unreferenced = False
     assert bench.run(5) == pytest.approx(np.zeros((5, 3)), abs=1e-15)
     assert bench.corrections == pytest.approx(0.5 * VALUES)
 
@@ -407,7 +407,7 @@ def test_the_display_does_not_show_corrections_and_shifts() -> None:
     bench.inputs.axis[0].actual_position = 7.0
     bench.run()
     assert bench.runtime.outputs.axis[0].display_position == pytest.approx(7.0 - VALUES[0])
-    bench.given[0].enable, bench.given[0].no_move = False, True
+    bench.given[0].wanted, bench.given[0].no_move = -1, True
     bench.run(3)
     assert bench.runtime.outputs.axis[0].display_position == pytest.approx(7.0 - VALUES[0])
 
@@ -425,7 +425,7 @@ def test_an_update_switches_off_without_motion_and_automatic_activation_comes_ba
 def test_an_update_of_a_manual_compensation_needs_a_new_command() -> None:
     bench = Bench(shifted(manual_activation=True))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     bench.run(N)
     bench.runtime.update(machine_of(shifted(manual_activation=True)))
     assert bench.run(N + 5) == pytest.approx(np.tile(VALUES, (N + 5, 1)))
@@ -474,9 +474,28 @@ def test_an_update_cannot_add_a_compensation() -> None:
 def test_a_saved_state_goes_on_with_the_same_bits() -> None:
     bench = Bench(shifted(manual_activation=True))
     bench.run()
-    bench.given[0].enable = True
+    bench.given[0].wanted = 1
     bench.run(5)
     saved = bench.runtime.save()
     first = bench.run(N)
     bench.runtime.restore(saved)
     assert bench.run(N).tolist() == first.tolist()
+
+
+def test_a_switch_that_commands_nothing_is_an_error_of_x_y_and_z() -> None:
+    bench = Bench(shifted(filter_steps=0))
+    bench.run()
+    bench.given[0].wanted = 4
+    bench.run()
+    assert (bench.active(), bench.errors[:4]) == (True, [904, 904, 904, 0])
+    bench.given[0].wanted = -1
+    bench.run()
+    assert not bench.active()
+
+
+def test_a_switch_of_0_is_as_the_lists_say() -> None:
+    for manual, switch in ((False, 0), (True, 0), (False, -3), (True, -3)):
+        bench = Bench(shifted(filter_steps=0, manual_activation=manual))
+        bench.given[0].wanted = switch
+        bench.run()
+        assert bench.active() != manual

@@ -24,13 +24,11 @@ def machine() -> Machine:
 
 def test_the_variables_are_there_where_there_is_a_volumetric_compensation() -> None:
     found = by_name(variables_of(machine()))
-    assert {"tool_length", "volumetric[0].enable", "volumetric[3].factor_z", "volumetric[3].active"} <= set(found)
+    assert {"tool_length", "volumetric[0].switch", "volumetric[3].reduction_z", "volumetric[3].active"} <= set(found)
     assert {"X.volumetric.correction", "Z.stop_request"} <= set(found)
-    assert not {"C.volumetric.correction", "A.stop_request", "volumetric[1].enable"} & set(found)
-    assert found["volumetric[0].enable"].start is True
-    assert found["volumetric[3].enable"].start is False
+    assert not {"C.volumetric.correction", "A.stop_request", "volumetric[1].switch"} & set(found)
     assert (found["tool_length"].unit, found["X.volumetric.correction"].unit) == ("mm", "mm")
-    assert found["volumetric[3].enable"].reference == 64 * 36
+    assert found["volumetric[3].switch"].reference == 64 * 36
     plain = by_name(variables_of(machine_of()))
     assert not {name for name in plain if "volumetric" in name or "tool" in name or "stop" in name}
 
@@ -49,7 +47,7 @@ def test_corrections_depend_on_the_setpoints_of_all_their_axes() -> None:
     found = by_name(variables_of(machine()))
     for name in ("Y.volumetric.correction", "Y.corrected_setpoint", "Y.error", "volumetric[0].active"):
         needed = set(found[name].depends_on or ())
-        assert {"X.setpoint", "C.setpoint", "C.fault", "tool_length", "volumetric[0].factor_y", "reset"} <= needed
+        assert {"X.setpoint", "C.setpoint", "C.fault", "tool_length", "volumetric[0].reduction_y", "reset"} <= needed
         assert "A.setpoint" not in needed
     assert "C.setpoint" not in set(found["volumetric[3].active"].depends_on or ())
 
@@ -59,9 +57,9 @@ def test_a_run_is_as_many_steps() -> None:
     trajectory = {
         "X.setpoint": np.linspace(0.0, 100.0, n),
         "C.setpoint": np.linspace(350.0, 370.0, n),
-        "volumetric[3].enable": np.arange(n) > 20,
-        "volumetric[3].factor_y": np.full(n, 0.5),
-        "volumetric[0].enable": np.arange(n) < 70,
+        "volumetric[3].switch": np.where(np.arange(n) > 20, 1, 0),
+        "volumetric[3].reduction_y": np.full(n, 0.5),
+        "volumetric[0].switch": np.where(np.arange(n) < 70, 0, -1),
         "volumetric[0].no_move": np.arange(n) > 60,
         "tool_length": np.full(n, 80.0),
     }

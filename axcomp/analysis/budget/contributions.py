@@ -273,8 +273,8 @@ def _activity(volumetric: Volumetric, columns: Columns, result: Result) -> tuple
     cycles = np.arange(len(on))
     switched = np.flatnonzero(np.diff(on, prepend=on[:1]))
     last = np.concatenate([[-np.inf], switched])[np.searchsorted(switched, cycles, side="right")]
-    wanted = np.asarray(columns.get(f"{name}.enable", on), dtype=bool)
-    return on, ~on | ((cycles - last > volumetric.filter_steps) & wanted)
+    off = np.asarray(columns.get(f"{name}.switch", np.where(on, 0.0, -1.0))) < 0.0
+    return on, ~on | ((cycles - last > volumetric.filter_steps) & ~off)
 
 
 def _of_errors(one: Poses, at: Indices, on: Flags) -> tuple[list[Contribution], Array]:

@@ -98,7 +98,7 @@ class Bench:
                 high = -one.amount if one.mode == 1 else one.amount
             elif one.n_cycles > 1 and name:
                 always = np.ones(len(self.outputs[name]))
-                high = self.run(inputs={self.names[place, f"{one.kind}.enable"]: always})[name]
+                high = self.run(inputs={self.names[place, f"{one.kind}.switch"]: always})[name]
             else:
                 continue
             between = np.abs(high - low) > 1e-12

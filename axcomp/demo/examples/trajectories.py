@@ -59,8 +59,8 @@ def five_axis() -> Trajectory:
     course.move({"X": -12.0, "Y": 41.0, "Z": -131.0, "B": -14.0, "C": 342.0}, limits)
     inputs = _inputs(course, folded=("C",))
     inputs["tool_length"] = np.full(CYCLES, 120.0)
-    inputs["volumetric[1].enable"] = np.ones(CYCLES)
-    inputs["volumetric[1].enable"][off:on] = 0.0
+    inputs["volumetric[1].switch"] = np.zeros(CYCLES)
+    inputs["volumetric[1].switch"][off:on] = -1.0
     return inputs
 
 
@@ -78,8 +78,8 @@ def warm_axis() -> Trajectory:
     course.move({"X": 139.0, "Y": 30.0}, limits)
     inputs = _inputs(course)
     at = np.arange(CYCLES)
-    inputs["X.temperature.offset"] = np.where(at < warmer, 0.0015, 0.004)
-    inputs["X.temperature.coefficient"] = np.where(at < grown, 12e-6, 23.5e-6)
+    inputs["X.temperature.offset"] = np.where(at < warmer, 0.0, 0.0025)
+    inputs["X.temperature.coefficient"] = np.where(at < grown, 0.0, 11.5e-6)
     return inputs
 
 

@@ -119,9 +119,9 @@ def test_negated_and_omitted_corrections_contribute_as_the_engine_adds_them() ->
 
 def test_a_compensation_that_is_off_contributes_nothing_and_one_on_its_way_is_not_judged() -> None:
     volumetric = replace(volumetric_of(EXX=0.01), filter_steps=20)
-    on = np.ones(100)
-    on[30:60] = 0
-    path = InputFile({"X.setpoint": np.zeros(100), "volumetric[0].enable": on})
+    on = np.zeros(100)
+    on[30:60] = -1
+    path = InputFile({"X.setpoint": np.zeros(100), "volumetric[0].switch": on})
     budget = budget_of(Machine(XYZ, (volumetric,)), path, points=100)
     values = by_source(budget, "X")["volumetric[0] EXX"].values
     assert values[:30] == pytest.approx(np.full(30, -10.0))

@@ -71,8 +71,8 @@ def test_switching_rates_approach_those_of_the_sine() -> None:
 def test_switching_moves_the_axis_as_fast_as_the_engine_does() -> None:
     machine = cross_machine((0.0, 100.0), (0.02, 0.02), n_cycles=10, manual_activation=True)
     [result] = dynamics_of(machine, FEED)
-    enable = np.arange(40) > 5
-    added = Engine(machine).run({"X.cross.enable": enable, "Y.setpoint": np.zeros(40)})["X.cross.correction"]
+    switch = np.where(np.arange(40) > 5, 1, -1)
+    added = Engine(machine).run({"X.cross.switch": switch, "Y.setpoint": np.zeros(40)})["X.cross.correction"]
     assert added[-1] == pytest.approx(0.02)
     assert np.abs(np.diff(added)).max() / 1e-3 == pytest.approx(result.jump.velocity)
     assert np.abs(np.diff(added, 2)).max() / 1e-6 == pytest.approx(result.jump.acceleration)

@@ -117,7 +117,7 @@ def switched(columns: dict[str, np.ndarray]) -> int:
     still = np.flatnonzero(columns["X.velocity"][100:700] == 0.0) + 100
     cycle = int(still[2])
     assert (columns["X.velocity"][cycle - 1 : cycle + 12] == 0.0).all()
-    columns["X.plane.enable"] = (np.arange(len(columns["X.velocity"])) < cycle).astype(float)
+    columns["X.plane.switch"] = np.where(np.arange(len(columns["X.velocity"])) < cycle, 0.0, -1.0)
     return cycle
 
 

@@ -26,6 +26,8 @@ def motion(machine: Machine, source: Generator, cycles: int) -> dict[str, NDArra
         if isinstance(variable.start, bool):
             switched = (source.random(cycles) < 0.003).cumsum() % 2 == 1
             columns[variable.name] = switched != variable.start
+        elif isinstance(variable.start, int):
+            columns[variable.name] = source.choice([-1, 0, 1, 1, 0, 9], sections)[np.arange(cycles) // 40]
         elif variable.field == "setpoint":
             speed = np.repeat(source.normal(0, 0.08, sections) * (source.random(sections) > 0.25), 40)[:cycles]
             columns[variable.name] = speed.cumsum() + source.normal(0, 100)
@@ -46,10 +48,10 @@ def _typed(machine: Machine, causality: str, kind: type) -> list[Variable]:
 
 def write_trajectory(path: Path, machine: Machine, columns: Columns) -> None:
     """Write a trajectory as ``replay`` reads it; inputs without a column keep their start."""
-    given = [*_typed(machine, "input", float), *_typed(machine, "input", bool)]
+    given = [v for kind in (float, bool, int) for v in _typed(machine, "input", kind)]
     wanted = [v for kind in (float, int, bool) for v in _typed(machine, "output", kind)]
     rows = len(next(iter(columns.values())))
-    counts = [rows, *(len(_typed(machine, "input", kind)) for kind in (float, bool))]
+    counts = [rows, *(len(_typed(machine, "input", kind)) for kind in (float, bool, int))]
     counts += [len(_typed(machine, "output", kind)) for kind in (float, int, bool)]
     references = [v.reference for v in (*given, *wanted)]
     values = np.column_stack([np.broadcast_to(columns.get(v.name, v.start), rows).astype(np.float64) for v in given])

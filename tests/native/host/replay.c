@@ -13,10 +13,10 @@
 #include <pthread.h>
 #endif
 
-/* A trajectory as a file: six counts (rows, then columns: real and Boolean inputs, real, Integer and Boolean outputs),
+/* A trajectory as a file: seven counts (rows, then columns: real, Boolean and Integer inputs, real, Integer and Boolean outputs),
  * the references in this order, the step size, the rows: all inputs as doubles. */
 typedef struct {
-    uint32_t rows, reals, booleans, results, integers, flags;
+    uint32_t rows, reals, booleans, commands, results, integers, flags;
     uint32_t *references;
     double step;
     double *given;
@@ -24,16 +24,16 @@ typedef struct {
 
 static int read_trajectory(const char *path, Trajectory *t)
 {
-    uint32_t counts[6];
+    uint32_t counts[7];
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
         return 0;
     }
     int good = fread(counts, sizeof counts, 1, file) == 1;
     t->rows = counts[0], t->reals = counts[1], t->booleans = counts[2];
-    t->results = counts[3], t->integers = counts[4], t->flags = counts[5];
-    size_t references = (size_t)t->reals + t->booleans + t->results + t->integers + t->flags;
-    size_t numbers = (size_t)t->rows * (t->reals + t->booleans);
+    t->commands = counts[3], t->results = counts[4], t->integers = counts[5], t->flags = counts[6];
+    size_t references = (size_t)t->reals + t->booleans + t->commands + t->results + t->integers + t->flags;
+    size_t numbers = (size_t)t->rows * (t->reals + t->booleans + t->commands);
     t->references = (uint32_t *)calloc(references + 1, sizeof(uint32_t));
     t->given = (double *)calloc(numbers + 1, sizeof(double));
     good = good && fread(t->references, sizeof(uint32_t), references, file) == references
@@ -47,11 +47,12 @@ static int run(fmi2Component instance, const Trajectory *t, double *results)
 {
     const uint32_t *reals = t->references;
     const uint32_t *booleans = reals + t->reals;
-    const uint32_t *wanted = booleans + t->booleans;
+    const uint32_t *commands = booleans + t->booleans;
+    const uint32_t *wanted = commands + t->commands;
     const uint32_t *integers = wanted + t->results;
     const uint32_t *flags = integers + t->integers;
     const double *given = t->given;
-    int *switches = (int *)calloc((size_t)t->booleans + t->integers + t->flags + 1, sizeof(int));
+    int *switches = (int *)calloc((size_t)t->booleans + t->commands + t->integers + t->flags + 1, sizeof(int));
     int failed = 0;
     for (uint32_t row = 0; row < t->rows; row++) {
         failed |= fmu.SetReal(instance, reals, t->reals, given) != fmi2OK;
@@ -60,6 +61,10 @@ static int run(fmi2Component instance, const Trajectory *t, double *results)
             switches[k] = *given++ != 0.0;
         }
         failed |= fmu.SetBoolean(instance, booleans, t->booleans, switches) != fmi2OK;
+        for (uint32_t k = 0; k < t->commands; k++) {
+            switches[k] = (int)*given++;
+        }
+        failed |= fmu.SetInteger(instance, commands, t->commands, switches) != fmi2OK;
         failed |= fmu.DoStep(instance, row * t->step, t->step, fmi2True) != fmi2OK;
         failed |= fmu.GetReal(instance, wanted, t->results, results) != fmi2OK;
         results += t->results;

@@ -266,6 +266,9 @@ class Walk:
         if isinstance(declared.start, bool):
             value, word = self.source.random() < 0.7, ""
             word = self.source.choice(["1", "-7"]) if value else "0"
+        elif isinstance(declared.start, int):
+            value = self.source.choice([0, 1, -1, 0, 1, -1, 2, -(2**31)])
+            word = str(value)
         else:
             value = self.source.choice(
                 [self.source.uniform(-600, 600)] * 20 + [math.nan, math.inf, 1e308, -0.0, 5e-324]
