@@ -29,7 +29,7 @@ class Built(NamedTuple):
 
     The machine has at least one axis. The description lacks what depends on the kind of FMU. ``start`` is what
     ``read_machine`` must read in ``resources``, ``lists`` the contents by path there; ``path`` is the file, once it is
-    written.
+    written, ``note`` what there is to say about its libraries.
     """
 
     reading: Reading
@@ -39,6 +39,7 @@ class Built(NamedTuple):
     start: str
     lists: Mapping[str, bytes]
     path: Path = Path()
+    note: str = ""
 
     @property
     def machine(self) -> Machine:
