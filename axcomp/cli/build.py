@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..analysis.diagnosis import write_named_diagnoses
-from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
+from ..fmu import NAME, BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
 from ..lists import Severity
 from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
@@ -49,7 +49,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "--machine", type=machine_path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
     )
     outputs = parser.add_mutually_exclusive_group()
-    outputs.add_argument("--output", type=Path, metavar="FILE", help="default: axcomp.fmu in the current folder")
+    outputs.add_argument("--output", type=Path, metavar="FILE", help="default: NAME.fmu in the current folder")
     outputs.add_argument("--image", type=Path, metavar="FILE", help="write an image of the tables, and no FMU")
     parser.add_argument(
         "--runtime", choices=("native", "python"), default="native", help="what runs in the FMU (default: native)"
@@ -60,6 +60,12 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         default=(),
         metavar="NAMES",
         help=f"of the native FMU: {','.join(PLATFORMS)} or some of them (default: all)",
+    )
+    parser.add_argument(
+        "--name",
+        default=NAME,
+        metavar="NAME",
+        help="name and identifier of the model, so that several can be linked into one program (default: %(default)s)",
     )
     parser.add_argument(
         "--cycle-time",
@@ -131,6 +137,7 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
             naming=args.naming,
             platforms=args.platforms,
             axis_type=args.axis_type,
+            name=args.name,
         )
     if args.platforms:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
@@ -141,6 +148,7 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
         naming=args.naming,
         external_tool=not args.no_external_tool,
         axis_type=args.axis_type,
+        name=args.name,
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import os
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,7 +20,9 @@ from .description import Description
 from .packing import packed_lists
 
 NAME = "axcomp"
-"""Name of the model, and of its file."""
+"""Name of the model and of its file, unless another one is given."""
+
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -53,15 +56,21 @@ class Built(NamedTuple):
 
 
 def read_content(
-    lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured", axis_type: TypeName | None = None
+    lists: str | os.PathLike[str],
+    cycle_time: float,
+    naming: Naming = "structured",
+    axis_type: TypeName | None = None,
+    name: str = NAME,
 ) -> Built:
-    """Read and compile the lists of a machine.
+    """Read and compile the lists of a machine; ``name``: of the model, an identifier of C.
 
     Raises
     ------
     BuildError
-        If there is no axis in them, or they cannot be run or packed.
+        If there is no axis in them, they cannot be run or packed, or the name is no identifier.
     """
+    if not _IDENTIFIER.fullmatch(name):
+        raise BuildError(f"{name!r} is no model name: it takes letters, digits and _, and begins with no digit.")
     reading = read_machine(lists, axis_type=axis_type)
     machine = reading.machine
     if not machine.axes:
@@ -72,7 +81,7 @@ def read_content(
         raise BuildError(f"{lists}: {error}") from None
     names = ", ".join(identifier(axis.name) for axis in machine.axes)
     description = Description(
-        name=NAME,
+        name=name,
         text=f"Axis compensations of {names}",
         step_size=cycle_time,
         version=version(),

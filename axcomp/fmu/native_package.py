@@ -13,34 +13,24 @@ from ..interface import Naming
 from ..lists import TypeName
 from ..model import CYCLE_TIME
 from ..native import (
-    HEADERS as HEADERS,
     LIBRARY_SOURCES,
     PLATFORMS,
-    SOURCES as SOURCES,
+    SOURCES,
     CompilerError,
     compile_library,
     compiler_of,
     cross_compile,
     has_cross_compiler,
     image_of,
-    image_source,
     own_platform,
     prebuilt_path,
-    source_bytes,
     source_path,
     why_not_prebuilt,
 )
 from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
 from .content import NAME, Built, output_path, read_content
 from .description import model_description
-
-TABLES_SOURCE = "tables.c"
-CONFIGURATION = """\
-/* How this library gets its tables: they are among the sources (tables.c). No file is read.
- *
- * Whoever links the sources statically defines FMI2_FUNCTION_PREFIX as axcomp_; see fmi2.h. */
-#define AXCOMP_EMBEDDED
-"""
+from .embedded import TABLES_SOURCE, embedded_sources
 
 IMAGE = "tables.bin"
 """Name of the image in ``resources``, which the prebuilt libraries read."""
@@ -58,8 +48,9 @@ def package_native(
     naming: Naming = "structured",
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
+    name: str = NAME,
 ) -> Built:
-    """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
+    """Write the FMU of a machine; a folder as output: a file of the model's name in it.
 
     Parameters
     ----------
@@ -75,6 +66,8 @@ def package_native(
         Those of ``PLATFORMS`` that get a library; none: all of them.
     axis_type : str or None
         As in ``read_machine``.
+    name : str
+        Name and identifier of the model; all that is visible outside its sources begins with it.
 
     Raises
     ------
@@ -83,9 +76,9 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type)
+    content = read_content(lists, cycle_time, naming, axis_type, name)
     files = {f"resources/{name}": data for name, data in content.lists.items()}
-    libraries, note = _libraries(platforms)
+    libraries, note = _libraries(platforms, name)
     files.update(libraries)
     description = replace(
         content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
@@ -93,11 +86,9 @@ def package_native(
     guid = _guid(content)
     image = image_of(content.compiled, guid, content.findings)
     files[f"resources/{IMAGE}"] = image
-    files.update((f"sources/{name}", source_bytes(name)) for name in (*SOURCES, *HEADERS))
-    files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()
-    files["sources/config.h"] = CONFIGURATION.encode()
+    files.update(embedded_sources(content, guid))
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
-    path = output_path(output, f"{NAME}.fmu")
+    path = output_path(output, f"{name}.fmu")
     write_fmu(path, files)
     return content._replace(path=path, note=note)
 
@@ -130,7 +121,7 @@ def _guid(content: Built) -> str:
     return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "", content.findings)})
 
 
-def _libraries(platforms: Sequence[str]) -> tuple[dict[str, bytes], str]:
+def _libraries(platforms: Sequence[str], name: str) -> tuple[dict[str, bytes], str]:
     """Return the libraries by their paths, and what there is to say about them.
 
     They come with the package; where that does not serve, a compiler makes them, by default this machine's own one.
@@ -140,10 +131,10 @@ def _libraries(platforms: Sequence[str]) -> tuple[dict[str, bytes], str]:
     files = {}
     for platform in wanted:
         try:
-            library = _compiled(platform, tuple(compiler_of(platform))) if reason else file_bytes(prebuilt_path(platform))
+            library = _compiled(platform, (*compiler_of(platform),)) if reason else file_bytes(prebuilt_path(platform))
         except CompilerError as error:
             raise NoCompilerError(f"{reason}; {error}") from None
-        files[f"binaries/{platform}/{NAME}{PLATFORMS[platform].suffix}"] = library
+        files[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = library
     return files, f"{reason}: compiled for {', '.join(wanted)}" if reason else ""
 
 

@@ -32,7 +32,7 @@ from .friction import DELAY_LINE, LOOKAHEAD_MAX
 from .initial import set_initial_inputs
 from .interpolation import Curve, Lookup, curve_value, fold, nearest
 from .motion import Argument, is_motion
-from .record import Vec, fields_of, zero, zeros
+from .record import APART, Vec, fields_of, zero, zeros
 from .records import ERROR_INPUT, ERROR_UPDATE, AxisInputs, AxisOutputs, AxisTable, Inputs, Outputs, State, Tables
 from .switching import CYCLES_MAX, ramp
 from .trigonometry import cosine, sine
@@ -65,6 +65,7 @@ EXPORTS = (
 """The functions that C calls by name; the translation has them and what they call."""
 
 __all__ = [
+    "APART",
     "BACKLASH",
     "CROSS",
     "CROSSTALK",

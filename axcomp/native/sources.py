@@ -7,13 +7,15 @@ from pathlib import Path
 
 from ..model import fmu_sources
 
-_PARTS = ("fmu", "image", "instance", "kernel", "model_exchange", "places", "resource", "states", "values")
+_PARTS = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "storage", "values")
 SOURCES = tuple(f"{part}.c" for part in _PARTS)
-HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "places.h", "resource.h")
-"""Of an FMU, in ``fmu_src/native``; with them goes ``config.h``, which is another one in an FMU's own sources."""
+HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h")
+"""Of an FMU, in ``fmu_src/native``; its tables are among its sources, and ``config.h`` is another one there."""
 
-LIBRARY_SOURCES = (*SOURCES, "run.c")
-"""Of the libraries: the Engine runs its trajectories in them too."""
+_LIBRARY_PARTS = ("image", "lists", "records", "reload", "resource")
+LIBRARY_SOURCES = (*SOURCES, *(f"{part}.c" for part in _LIBRARY_PARTS), "run.c")
+LIBRARY_HEADERS = (*HEADERS, "config.h", "lists.h", "records.h", "resource.h", "run.h")
+"""Of the libraries, which read images; the Engine runs its trajectories in them too."""
 
 
 def source_path(name: str) -> Path:
@@ -29,7 +31,7 @@ def source_bytes(name: str) -> bytes:
 def sources_checksum() -> str:
     """Return a SHA-256 of all that the libraries are made of."""
     digest = hashlib.sha256()
-    for name in (*LIBRARY_SOURCES, *HEADERS, "run.h", "config.h"):
+    for name in (*LIBRARY_SOURCES, *LIBRARY_HEADERS):
         data = source_bytes(name)
         digest.update(f"{name}\0{len(data)}\0".encode() + data)
     return digest.hexdigest()

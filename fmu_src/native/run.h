@@ -12,9 +12,9 @@ extern "C" {
 /* AXCOMP_LAYOUT of the records this was compiled with. */
 FMI2_EXPORT uint32_t axcomp_layout(void);
 
-/* A field of Inputs or Outputs: its offset in bytes, and 'r' double, 'i' int32_t or 'b' bool. */
+/* A field of the inputs or outputs: where it is, and 'r' double, 'i' int32_t or 'b' bool. */
 typedef struct {
-    int32_t offset;
+    void *at;
     char type;
 } Field;
 

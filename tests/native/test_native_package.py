@@ -17,7 +17,18 @@ from axcomp.fmu import HEADERS, SOURCES, BuildError, NoCompilerError, package_ax
 from axcomp.interface import Naming
 from axcomp.lists import write_machine
 from axcomp.model import fmu_sources
-from axcomp.native import PLATFORMS, image_of, layout_header, own_platform, places_source, prebuilt_path
+from axcomp.native import (
+    LIBRARY_HEADERS,
+    LIBRARY_SOURCES,
+    PLATFORMS,
+    image_of,
+    layout_header,
+    own_platform,
+    places_source,
+    prebuilt_path,
+    records_source,
+)
+from axcomp.native.places import GENERATED
 from axcomp.runtime import compile_tables
 
 NATIVE = fmu_sources() / "native"
@@ -31,6 +42,7 @@ def contents(fmu: Path) -> dict[str, bytes]:
 def test_the_committed_layout_and_places_follow_from_the_declarations() -> None:
     assert (NATIVE / "layout.h").read_text("utf-8") == layout_header(), "run python -m axcomp.native"
     assert (NATIVE / "places.c").read_text("utf-8") == places_source(), "run python -m axcomp.native"
+    assert (NATIVE / "records.c").read_text("utf-8") == records_source(GENERATED), "run python -m axcomp.native"
 
 
 def test_it_holds_library_image_lists_and_all_sources(native_fmu: Path, lists: Path) -> None:
@@ -41,10 +53,10 @@ def test_it_holds_library_image_lists_and_all_sources(native_fmu: Path, lists: P
     assert files["resources/tables.bin"] == image_of(compile_tables(three_axes()), description.guid)
     assert files["resources/machine/hochlauf.lis"] == (lists / "hochlauf.lis").read_bytes()
     sources = {name.removeprefix("sources/") for name in files if name.startswith("sources/")}
-    assert sources == {*SOURCES, *HEADERS, "tables.c", "config.h"}
+    assert sources == {*SOURCES, *HEADERS, "tables.c", "config.h", "buildDescription.xml"}
     compiled = description.buildConfigurations[0].sourceFileSets[0].sourceFiles
     assert compiled == [*SOURCES, "tables.c"]
-    assert {path.name for path in NATIVE.iterdir()} == {*SOURCES, *HEADERS, "config.h", "run.c", "run.h"}
+    assert {path.name for path in NATIVE.iterdir()} == {*LIBRARY_SOURCES, *LIBRARY_HEADERS}
 
 
 @pytest.mark.parametrize("naming", ["structured", "flat"])
