@@ -8,11 +8,11 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from ..fmu import IMAGE, SOURCES
+from ..fmu import IMAGE
 from ..interface import Variable, variables_of, with_causality
 from ..lists import read_machine
 from ..model import CYCLE_TIME, Machine, fmu_sources, models
-from ..native import PLATFORMS, compile_library, compile_program, compiler_of, image_of, own_platform
+from ..native import LIBRARY_SOURCES, PLATFORMS, compile_library, compile_program, compiler_of, image_of, own_platform
 from ..runtime import compile_tables
 from .clock import Sample
 from .machines import machine_of
@@ -20,7 +20,7 @@ from .machines import machine_of
 AXES = (3, 8, 16, 32)
 POINTS = (10, 100, 1000, 10_000)
 GUID = "{bench}"
-KERNEL_SOURCES = ("image.c", "kernel.c", "resource.c")
+KERNEL_SOURCES = ("image.c", "kernel.c", "memory.c", "records.c", "resource.c")
 GOALS = {"three_axis": 1000.0, "five_axis": 3000.0}
 """Example machine → what a cycle may cost in a C host, ns."""
 
@@ -46,7 +46,7 @@ class NativeHost:
         self._folder = folder
         self._host = folder / f"bench{'.exe' if sys.platform == 'win32' else ''}"
         self._fmu, self._copy = folder / f"axcomp{suffix}", folder / f"copy{suffix}"
-        compile_library([native / name for name in SOURCES], self._fmu, compiler=compiler, platform=platform)
+        compile_library([native / name for name in LIBRARY_SOURCES], self._fmu, compiler=compiler, platform=platform)
         compile_library(
             [host / "copying_fmu.c"], self._copy, compiler=compiler, platform=platform, flags=[f"-I{native}"]
         )

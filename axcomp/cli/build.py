@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..analysis.diagnosis import write_named_diagnoses
-from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
+from ..fmu import NAME, BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
 from ..lists import Severity
 from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
@@ -20,9 +20,8 @@ EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
 What there is to say about the lists is printed; what is wrong in them does not act, but stops nothing.
 
-The native FMU holds a library for each platform and its C sources, and needs nothing. The machine's own C compiler
-serves the machine itself; with the compiler of axcomp[cross] all platforms can be asked for. The FMU of
---runtime python needs no compiler, but Python in the host.
+The native FMU holds a library for each platform and its C sources; it needs nothing, and no compiler is needed to
+build it. That of --runtime python needs Python in the host.
 
 --image writes the tables of the lists, which a running native FMU takes by its input reload; the exit status is then
 the number of errors in the lists, at most 100: such an image is written, and reload refuses it.
@@ -32,7 +31,7 @@ A diagnosis file that a volumetric list names is written too, as axcomp diagnose
 examples:
   axcomp build
   axcomp build --machine lists/hochlauf.lis --output machine.fmu --cycle-time 0.002
-  axcomp build --platforms linux64,win64,darwin64
+  axcomp build --platforms linux64,win64
   axcomp build --runtime python
   axcomp build --machine lists/hochlauf.lis --image new.bin
 """
@@ -50,7 +49,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "--machine", type=machine_path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
     )
     outputs = parser.add_mutually_exclusive_group()
-    outputs.add_argument("--output", type=Path, metavar="FILE", help="default: axcomp.fmu in the current folder")
+    outputs.add_argument("--output", type=Path, metavar="FILE", help="default: NAME.fmu in the current folder")
     outputs.add_argument("--image", type=Path, metavar="FILE", help="write an image of the tables, and no FMU")
     parser.add_argument(
         "--runtime", choices=("native", "python"), default="native", help="what runs in the FMU (default: native)"
@@ -60,7 +59,13 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         type=_platforms,
         default=(),
         metavar="NAMES",
-        help=f"of the native FMU: {','.join(PLATFORMS)} or some of them (default: this machine's)",
+        help=f"of the native FMU: {','.join(PLATFORMS)} or some of them (default: all)",
+    )
+    parser.add_argument(
+        "--name",
+        default=NAME,
+        metavar="NAME",
+        help="name and identifier of the model, so that several can be linked into one program (default: %(default)s)",
     )
     parser.add_argument(
         "--cycle-time",
@@ -98,6 +103,8 @@ def _do_build(args: argparse.Namespace) -> int:
         built = _build(args, args.machine or example)
         for finding in built.findings:
             print(finding, file=sys.stderr)
+        if built.note:
+            print(f"note: {built.note}", file=sys.stderr)
         for line in _summary(built):
             print(line)
         for said in write_named_diagnoses(built.reading):
@@ -130,6 +137,7 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
             naming=args.naming,
             platforms=args.platforms,
             axis_type=args.axis_type,
+            name=args.name,
         )
     if args.platforms:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
@@ -140,6 +148,7 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
         naming=args.naming,
         external_tool=not args.no_external_tool,
         axis_type=args.axis_type,
+        name=args.name,
     )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
+    from ..native import HEADERS as HEADERS, SOURCES as SOURCES
     from .archive import (
         BuildError as BuildError,
         content_guid as content_guid,
@@ -14,13 +15,11 @@ if TYPE_CHECKING:
         generation_date as generation_date,
         write_fmu as write_fmu,
     )
-    from .content import PACKAGE as PACKAGE, Built as Built
+    from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built
     from .description import Description as Description, model_description as model_description
     from .instance import Instance as Instance
     from .native_package import (
-        HEADERS as HEADERS,
         IMAGE as IMAGE,
-        SOURCES as SOURCES,
         NoCompilerError as NoCompilerError,
         package_native as package_native,
         write_image as write_image,
@@ -34,10 +33,11 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         archive="BuildError content_guid file_bytes generation_date write_fmu",
-        content="Built PACKAGE",
+        content="Built NAME PACKAGE",
         description="Description model_description",
         instance="Instance",
-        native_package="HEADERS IMAGE NoCompilerError SOURCES package_native write_image",
+        embedded="HEADERS SOURCES",
+        native_package="IMAGE NoCompilerError package_native write_image",
         package="package_axcomp write_python_fmu",
         packed_interface="Interface",
         packing="FOLDER packed_lists",

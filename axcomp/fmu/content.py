@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -18,7 +19,9 @@ from .description import Description
 from .packing import packed_lists
 
 NAME = "axcomp"
-"""Name of the model, and of its file."""
+"""Name of the model and of its file, unless another one is given."""
+
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -28,7 +31,7 @@ class Built(NamedTuple):
 
     The machine has at least one axis. The description lacks what depends on the kind of FMU. ``start`` is what
     ``read_machine`` must read in ``resources``, ``lists`` the contents by path there; ``path`` is the file, once it is
-    written.
+    written, ``note`` what there is to say about its libraries.
     """
 
     reading: Reading
@@ -38,6 +41,7 @@ class Built(NamedTuple):
     start: str
     lists: Mapping[str, bytes]
     path: Path = Path()
+    note: str = ""
 
     @property
     def machine(self) -> Machine:
@@ -51,15 +55,21 @@ class Built(NamedTuple):
 
 
 def read_content(
-    lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured", axis_type: TypeName | None = None
+    lists: str | os.PathLike[str],
+    cycle_time: float,
+    naming: Naming = "structured",
+    axis_type: TypeName | None = None,
+    name: str = NAME,
 ) -> Built:
-    """Read and compile the lists of a machine.
+    """Read and compile the lists of a machine; ``name``: of the model, an identifier of C.
 
     Raises
     ------
     BuildError
-        If there is no axis in them, or they cannot be run or packed.
+        If there is no axis in them, they cannot be run or packed, or the name is no identifier.
     """
+    if not _IDENTIFIER.fullmatch(name):
+        raise BuildError(f"{name!r} is no model name: it takes letters, digits and _, and begins with no digit.")
     reading = read_machine(lists, axis_type=axis_type)
     machine = reading.machine
     if not machine.axes:
@@ -70,7 +80,7 @@ def read_content(
         raise BuildError(f"{lists}: {error}") from None
     names = ", ".join(identifier(axis.name) for axis in machine.axes)
     description = Description(
-        name=NAME,
+        name=name,
         text=f"Axis compensations of {names}",
         step_size=cycle_time,
         version=__version__,

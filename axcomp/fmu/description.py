@@ -55,6 +55,11 @@ class Description:
     capabilities: Mapping[str, bool] = field(default_factory=dict)
     source_files: Sequence[str] = ()
 
+    @property
+    def tool(self) -> str:
+        """What made the FMU."""
+        return f"axcomp {self.version}"
+
 
 CAPABILITIES = {
     "canHandleVariableCommunicationStepSize": True,
@@ -73,7 +78,7 @@ def model_description(description: Description, variables: Sequence[Variable], g
         guid=guid,
         description=description.text,
         version=description.version,
-        generationTool=f"axcomp {description.version}",
+        generationTool=description.tool,
         generationDateAndTime=description.generated,
         variableNamingConvention=description.naming,
     )

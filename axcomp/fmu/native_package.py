@@ -11,24 +11,26 @@ from pathlib import Path
 
 from ..interface import Naming
 from ..lists import TypeName
-from ..model import CYCLE_TIME, fmu_sources
-from ..native import PLATFORMS, CompilerError, compile_library, compiler_of, image_of, image_source, own_platform
+from ..model import CYCLE_TIME
+from ..native import (
+    LIBRARY_SOURCES,
+    PLATFORMS,
+    SOURCES,
+    CompilerError,
+    compile_library,
+    compiler_of,
+    cross_compile,
+    has_cross_compiler,
+    image_of,
+    own_platform,
+    prebuilt_path,
+    source_path,
+    why_not_prebuilt,
+)
 from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
 from .content import NAME, Built, output_path, read_content
 from .description import model_description
-
-_PARTS = ("fmu", "image", "instance", "kernel", "model_exchange", "places", "resource", "states", "values")
-SOURCES = tuple(f"{part}.c" for part in _PARTS)
-HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "places.h", "resource.h")
-"""Of the library, in ``fmu_src/native``; with them goes ``config.h``, which is another one in an FMU."""
-
-TABLES_SOURCE = "tables.c"
-CONFIGURATION = """\
-/* How this library gets its tables: they are among the sources (tables.c). No file is read.
- *
- * Whoever links the sources statically defines FMI2_FUNCTION_PREFIX as axcomp_; see fmi2.h. */
-#define AXCOMP_EMBEDDED
-"""
+from .embedded import TABLES_SOURCE, embedded_sources
 
 IMAGE = "tables.bin"
 """Name of the image in ``resources``, which the prebuilt libraries read."""
@@ -46,8 +48,9 @@ def package_native(
     naming: Naming = "structured",
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
+    name: str = NAME,
 ) -> Built:
-    """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
+    """Write the FMU of a machine; a folder as output: a file of the model's name in it.
 
     Parameters
     ----------
@@ -60,33 +63,34 @@ def package_native(
     naming : str
         ``structured`` or ``flat``.
     platforms : sequence of str
-        Those of ``PLATFORMS`` that get a library; none: the one this Python runs on.
+        Those of ``PLATFORMS`` that get a library; none: all of them.
     axis_type : str or None
         As in ``read_machine``.
+    name : str
+        Name and identifier of the model; all that is visible outside its sources begins with it.
 
     Raises
     ------
     NoCompilerError
-        If a library cannot be compiled.
+        If the libraries that come with the package do not serve, and none can be compiled.
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type)
+    content = read_content(lists, cycle_time, naming, axis_type, name)
     files = {f"resources/{name}": data for name, data in content.lists.items()}
-    files.update(_libraries(platforms or (own_platform(),)))
+    libraries, note = _libraries(platforms, name)
+    files.update(libraries)
     description = replace(
         content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
     )
     guid = _guid(content)
     image = image_of(content.compiled, guid, content.findings)
     files[f"resources/{IMAGE}"] = image
-    files.update((f"sources/{name}", _source(name)) for name in (*SOURCES, *HEADERS))
-    files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()
-    files["sources/config.h"] = CONFIGURATION.encode()
+    files.update(embedded_sources(content, guid))
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
-    path = output_path(output, f"{NAME}.fmu")
+    path = output_path(output, f"{name}.fmu")
     write_fmu(path, files)
-    return content._replace(path=path)
+    return content._replace(path=path, note=note)
 
 
 def write_image(
@@ -117,27 +121,31 @@ def _guid(content: Built) -> str:
     return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "", content.findings)})
 
 
-def _libraries(platforms: Sequence[str]) -> dict[str, bytes]:
+def _libraries(platforms: Sequence[str], name: str) -> tuple[dict[str, bytes], str]:
+    """Return the libraries by their paths, and what there is to say about them.
+
+    They come with the package; where that does not serve, a compiler makes them, by default this machine's own one.
+    """
+    reason = why_not_prebuilt()
+    wanted = platforms or ((own_platform(),) if reason else tuple(PLATFORMS))
     files = {}
-    for platform in platforms:
+    for platform in wanted:
         try:
-            library = _library(platform, tuple(compiler_of(platform)))
+            library = _compiled(platform, (*compiler_of(platform),)) if reason else file_bytes(prebuilt_path(platform))
         except CompilerError as error:
-            raise NoCompilerError(str(error)) from None
-        files[f"binaries/{platform}/{NAME}{PLATFORMS[platform].suffix}"] = library
-    return files
+            raise NoCompilerError(f"{reason}; {error}") from None
+        files[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = library
+    return files, f"{reason}: compiled for {', '.join(wanted)}" if reason else ""
 
 
 @cache
-def _library(platform: str, compiler: tuple[str, ...]) -> bytes:
-    """Return the library for a platform; it is the same for every machine."""
-    folder = fmu_sources() / "native"
+def _compiled(platform: str, compiler: tuple[str, ...]) -> bytes:
+    """Return a library that this compiler, or the cross compiler, has just made."""
+    sources = [source_path(name) for name in LIBRARY_SOURCES]
     with tempfile.TemporaryDirectory() as work:
         output = Path(work) / f"{NAME}{PLATFORMS[platform].suffix}"
-        compile_library([folder / name for name in SOURCES], output, compiler=compiler, platform=platform)
+        if has_cross_compiler():
+            cross_compile(sources, output, platform=platform)
+        else:
+            compile_library(sources, output, compiler=compiler, platform=platform)
         return output.read_bytes()
-
-
-def _source(name: str) -> bytes:
-    """Return a source with the same line ends on every system."""
-    return file_bytes(fmu_sources() / "native" / name).replace(b"\r\n", b"\n")

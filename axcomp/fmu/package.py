@@ -13,7 +13,7 @@ from ..interface import Naming, Variable
 from ..lists import TypeName
 from ..model import CYCLE_TIME, fmu_sources
 from .archive import BuildError, content_guid, file_bytes, write_fmu
-from .content import PACKAGE, Built, output_path, read_content
+from .content import NAME, PACKAGE, Built, output_path, read_content
 from .description import Description, model_description
 from .packed_interface import FILE_NAME, Interface
 from .sources import renamed_sources
@@ -27,6 +27,7 @@ def package_axcomp(
     naming: Naming = "structured",
     external_tool: bool = True,
     axis_type: TypeName | None = None,
+    name: str = NAME,
 ) -> Built:
     """Write the FMU of a machine that runs in Python; parameters as in ``package_native``.
 
@@ -38,7 +39,7 @@ def package_axcomp(
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type)
+    content = read_content(lists, cycle_time, naming, axis_type, name)
     interface = Interface.of(content.machine, content.start, cycle_time, axis_type)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})

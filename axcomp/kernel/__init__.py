@@ -31,7 +31,7 @@ from .fit import tables_fit
 from .friction import DELAY_LINE, LOOKAHEAD_MAX
 from .interpolation import Curve, Lookup, curve_value, fold, nearest
 from .motion import Argument, is_motion
-from .record import Vec, fields_of, zero, zeros
+from .record import APART, Vec, fields_of, zero, zeros
 from .records import (
     ERROR_INPUT,
     ERROR_SWITCH,
@@ -74,6 +74,7 @@ EXPORTS = (
 """The functions that C calls by name; the translation has them and what they call."""
 
 __all__ = [
+    "APART",
     "BACKLASH",
     "CROSS",
     "CROSSTALK",

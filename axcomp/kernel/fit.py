@@ -6,6 +6,7 @@ The table compiler makes only such tables; tables that come from a file are look
 from __future__ import annotations
 
 from .compensations import KINDS, compensation_fits
+from .friction import DELAY_LINE
 from .motion import AXES
 from .record import Vec
 from .records import AxisTable, Tables
@@ -34,6 +35,8 @@ def axis_fits(table: AxisTable, pool: Vec, axes: int, numbers: int) -> bool:
     if not table.modulo_range >= 0.0 or not 1 <= table.shift_cycles <= CYCLES_MAX:
         return False
     if not (0 <= table.first <= numbers and 0 <= table.numbers <= numbers - table.first):
+        return False
+    if not 0 <= table.compensation.friction.delay < DELAY_LINE:  # there is a delay line in any case
         return False
     if not 0 <= table.kinds <= KINDS:
         return False

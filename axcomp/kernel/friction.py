@@ -13,7 +13,7 @@ from typing import Annotated
 
 from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
 from .motion import AxisMotion, way_sign
-from .record import Vec, whole
+from .record import APART, Vec, whole, zeros
 
 DELAY_LINE = 249  # delay_cycles < 249 (P-COMP-00058)
 LOOKAHEAD_MAX = 4  # P-COMP-00044
@@ -48,9 +48,9 @@ class FrictionState:
     reversal_position: float
     built_up: bool  # the axis has gone position_delay since
     since_reversal: int  # cycles, at most lookahead
-    head: int  # where the delay line is written next
+    head: int  # where the delay line, of delay + 1 elements, is written next
     predicted: bool  # a reversal has been predicted from velocity and acceleration, for want of velocities to come
-    line: Annotated[list[float], DELAY_LINE]
+    line: Annotated[list[float], DELAY_LINE, APART]
 
 
 def friction_current(
@@ -95,7 +95,7 @@ def decay_delayed(table: FrictionTable, state: FrictionState) -> None:
     """Weight the last cycles of the old direction, which still wait in the delay line: exact."""
     at = state.head
     for n in range(state.since_reversal):
-        at = at - 1 if at > 0 else DELAY_LINE - 1
+        at = at - 1 if at > 0 else table.delay
         state.line[at] = state.line[at] * n / table.lookahead
 
 
@@ -120,11 +120,8 @@ def decay_predicted(table: FrictionTable, velocity: float, acceleration: float, 
 def delayed(table: FrictionTable, state: FrictionState, current: float) -> float:
     """Put a current into the delay line and return the one of ``delay`` cycles ago."""
     state.line[state.head] = current
-    at = state.head - table.delay
-    if at < 0:
-        at += DELAY_LINE
-    state.head = state.head + 1 if state.head < DELAY_LINE - 1 else 0
-    return state.line[at]
+    state.head = state.head + 1 if state.head < table.delay else 0
+    return state.line[state.head]
 
 
 def adopt_friction(before: FrictionTable, after: FrictionTable, state: FrictionState) -> None:
@@ -132,9 +129,23 @@ def adopt_friction(before: FrictionTable, after: FrictionTable, state: FrictionS
     forget(state.lookup)
     if before.curve.points == 0:
         state.direction = 0
-        for n in range(DELAY_LINE):
-            state.line[n] = 0.0
+        state.line[0] = 0.0
+    if after.delay != before.delay:
+        stretch(before.delay, after.delay, state)
     state.since_reversal = min(state.since_reversal, after.lookahead)
+
+
+def stretch(before: int, after: int, state: FrictionState) -> None:
+    """Make the delay line one of another delay: what waits goes on waiting, behind it the oldest current is held."""
+    waiting = zeros(DELAY_LINE)
+    for age in range(after + 1):
+        at = state.head - 1 - min(age, before)
+        if at < 0:
+            at += before + 1
+        waiting[age] = state.line[at]
+    for age in range(after + 1):
+        state.line[after - age] = waiting[age]
+    state.head = 0
 
 
 def move_friction(table: FrictionTable, by: int) -> None:

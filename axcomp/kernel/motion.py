@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from .interpolation import fold, nearest
+from .record import APART
 
 AXES = 32
 STANDSTILL = 1e-9  # mm or ° a cycle
@@ -32,7 +33,7 @@ class AxisMotion:
 class Motion:
     """The motion of all axes."""
 
-    axis: Annotated[list[AxisMotion], AXES]
+    axis: Annotated[list[AxisMotion], AXES, APART]
 
 
 @dataclass(slots=True)

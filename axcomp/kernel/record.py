@@ -1,7 +1,7 @@
 """Records of the kernel as plain Python: nothing here is needed by the C side.
 
 A record is a dataclass with slots whose fields are float, int, bool, another record, ``Vec`` (a table owned by someone
-else) or ``Annotated[list[T], N]`` (N elements of T). ``zero`` makes one with everything 0; C makes it with memset.
+else) or ``Annotated[list[T], N]`` (N elements of T; with ``APART`` behind it at most N). ``zero`` makes one with everything 0; C makes it with memset.
 """
 
 from __future__ import annotations
@@ -13,6 +13,9 @@ from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type
 
 Vec = list[float]
 """A table of floats owned by the caller; in C ``const double *``."""
+
+APART = "apart"
+"""Marks a list of a record that is as long as the machine needs: in C it lies apart, and the record points to it."""
 
 Record = TypeVar("Record")
 

@@ -11,6 +11,7 @@ from typing import Annotated
 
 from .compensations import KINDS, CompensationInputs, CompensationStates, CompensationTables
 from .motion import AXES, Motion
+from .record import APART
 from .shift import ShiftState
 from .switching import SwitchState, SwitchTable
 from .volumetric_records import VOLUMETRICS, VolumetricInputs, VolumetricOutputs, VolumetricState, VolumetricTable
@@ -91,9 +92,9 @@ class Tables:
 
     cycle_time: float
     axis_count: int
-    axis: Annotated[list[AxisTable], AXES]
+    axis: Annotated[list[AxisTable], AXES, APART]
     volumetrics: int  # the last configured one and those before it
-    volumetric: Annotated[list[VolumetricTable], VOLUMETRICS]
+    volumetric: Annotated[list[VolumetricTable], VOLUMETRICS, APART]
 
 
 @dataclass(slots=True)
@@ -101,9 +102,9 @@ class State:
     """Everything that is remembered from cycle to cycle; it holds no references, a copy is a snapshot."""
 
     motion: Motion
-    axis: Annotated[list[AxisState], AXES]
+    axis: Annotated[list[AxisState], AXES, APART]
     tool_length: float  # mm; the last one that was finite
-    volumetric: Annotated[list[VolumetricState], VOLUMETRICS]
+    volumetric: Annotated[list[VolumetricState], VOLUMETRICS, APART]
 
 
 @dataclass(slots=True)
@@ -113,14 +114,14 @@ class Inputs:
     reset: bool
     program_end: bool
     derive_motion: bool  # velocities and accelerations are not given: they follow from the setpoints
-    axis: Annotated[list[AxisInputs], AXES]
+    axis: Annotated[list[AxisInputs], AXES, APART]
     tool_length: float  # mm
-    volumetric: Annotated[list[VolumetricInputs], VOLUMETRICS]
+    volumetric: Annotated[list[VolumetricInputs], VOLUMETRICS, APART]
 
 
 @dataclass(slots=True)
 class Outputs:
     """Everything that a cycle returns."""
 
-    axis: Annotated[list[AxisOutputs], AXES]
-    volumetric: Annotated[list[VolumetricOutputs], VOLUMETRICS]
+    axis: Annotated[list[AxisOutputs], AXES, APART]
+    volumetric: Annotated[list[VolumetricOutputs], VOLUMETRICS, APART]

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
         compile_library as compile_library,
         compile_program as compile_program,
         compiler_of as compiler_of,
+        cross_compile as cross_compile,
         has_cross_compiler as has_cross_compiler,
         own_platform as own_platform,
     )
@@ -21,20 +22,33 @@ if TYPE_CHECKING:
         HEADER_BEFORE_CHECK as HEADER_BEFORE_CHECK,
         MAGIC as MAGIC,
         image_of as image_of,
-        image_source as image_source,
+        tables_source as tables_source,
     )
     from .layout import ctypes_of as ctypes_of, from_c as from_c, to_c as to_c
     from .library import SWITCH as SWITCH, compiled_kernel as compiled_kernel
     from .places import layout_header as layout_header, places_source as places_source
+    from .prebuilt import prebuilt_path as prebuilt_path, why_not_prebuilt as why_not_prebuilt
+    from .records import records_source as records_source
     from .runner import CompiledTables as CompiledTables, run_compiled as run_compiled
+    from .sources import (
+        HEADERS as HEADERS,
+        LIBRARY_HEADERS as LIBRARY_HEADERS,
+        LIBRARY_SOURCES as LIBRARY_SOURCES,
+        SOURCES as SOURCES,
+        source_bytes as source_bytes,
+        source_path as source_path,
+    )
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
-        compiler="CompilerError FLAGS PLATFORMS compile_library compile_program compiler_of has_cross_compiler "
-        "own_platform",
-        image="HEADER_BEFORE_CHECK MAGIC image_of image_source",
+        compiler="CompilerError FLAGS PLATFORMS compile_library compile_program compiler_of cross_compile "
+        "has_cross_compiler own_platform",
+        image="HEADER_BEFORE_CHECK MAGIC image_of tables_source",
         layout="ctypes_of from_c to_c",
         library="SWITCH compiled_kernel",
         places="layout_header places_source",
+        prebuilt="prebuilt_path why_not_prebuilt",
+        records="records_source",
         runner="CompiledTables run_compiled",
+        sources="HEADERS LIBRARY_HEADERS LIBRARY_SOURCES SOURCES source_bytes source_path",
     )

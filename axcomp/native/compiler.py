@@ -2,31 +2,43 @@
 
 from __future__ import annotations
 
+import ctypes
 import importlib.util
 import os
+import platform as system
 import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from .universal import universal
+
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-g0", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
 """No fast-math and no fused multiplications: every compiler then gives the same bits."""
 
+SSE = ("-msse2", "-mfpmath=sse")
+"""Of a 32-bit x86 processor: the i387 would compute with more digits."""
+
 
 class Platform(NamedTuple):
-    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machine."""
+    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machines in one."""
 
     suffix: str
-    zig_target: str
+    zig_targets: tuple[str, ...]
+    flags: tuple[str, ...] = ()
 
 
 PLATFORMS = {
-    "linux64": Platform(".so", "x86_64-linux-gnu.2.17"),
-    "win64": Platform(".dll", "x86_64-windows-gnu"),
-    "darwin64": Platform(".dylib", "x86_64-macos.11.0"),
+    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",)),
+    "win64": Platform(".dll", ("x86_64-windows-gnu",)),
+    "darwin64": Platform(".dylib", ("x86_64-macos.11.0", "aarch64-macos.11.0")),
+    "aarch64-linux": Platform(".so", ("aarch64-linux-gnu.2.17",)),
+    "linux32": Platform(".so", ("x86-linux-gnu.2.17",), SSE),
+    "win32": Platform(".dll", ("x86-windows-gnu",), SSE),
 }
 """Those that FMUs are built for; the Linux libraries need glibc 2.17 or newer."""
 
@@ -37,7 +49,12 @@ class CompilerError(RuntimeError):
 
 def own_platform() -> str:
     """Return the FMI name of the platform this Python runs on."""
-    return {"win32": "win64", "darwin": "darwin64"}.get(sys.platform, "linux64")
+    if sys.platform == "darwin":
+        return "darwin64"
+    bits = 8 * ctypes.sizeof(ctypes.c_void_p)
+    if sys.platform == "win32":
+        return f"win{bits}"
+    return "aarch64-linux" if system.machine() in ("aarch64", "arm64") else f"linux{bits}"
 
 
 def has_cross_compiler() -> bool:
@@ -54,7 +71,7 @@ def compiler_of(platform: str) -> list[str]:
         If there is none: the machine's own compiler (``CC``, cc, gcc or clang) serves only the machine itself.
     """
     if has_cross_compiler():
-        return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[platform].zig_target]
+        return zig(PLATFORMS[platform].zig_targets[0])
     if platform == own_platform():
         if os.environ.get("CC"):
             return shlex.split(os.environ["CC"])
@@ -63,6 +80,25 @@ def compiler_of(platform: str) -> list[str]:
                 return [name]
         raise CompilerError("there is no C compiler: install gcc or clang, or pip install axcomp[cross]")
     raise CompilerError(f"for {platform} on {own_platform()} a cross compiler is needed: pip install axcomp[cross]")
+
+
+def zig(target: str) -> list[str]:
+    """Return the command of zig's C compiler for what it calls a target."""
+    return [sys.executable, "-m", "ziglang", "cc", "-target", target]
+
+
+def cross_compile(sources: Sequence[Path], output: Path, *, platform: str, flags: Sequence[str] = ()) -> None:
+    """Compile C sources with zig into the shared library of a platform, for all its processors; raises as the below."""
+    targets = PLATFORMS[platform].zig_targets
+    with tempfile.TemporaryDirectory() as work:
+        slices = []
+        for number, target in enumerate(targets):
+            # In folders of their own: linkers note the name of the output.
+            one = Path(work, str(number), output.name)
+            one.parent.mkdir()
+            compile_library(sources, one, compiler=zig(target), platform=platform, flags=flags)
+            slices.append(one.read_bytes())
+    output.write_bytes(slices[0] if len(slices) == 1 else universal(slices))
 
 
 def compile_library(
@@ -75,17 +111,20 @@ def compile_library(
     CompilerError
         With the compiler's own words, if it fails.
     """
-    linking = ["-shared", *(["-s"] if platform == "win64" else ["-fPIC", "-lm"])]
-    if platform == "linux64":
+    windows = PLATFORMS[platform].suffix == ".dll"
+    linking = ["-shared", *(["-s"] if windows else ["-fPIC", "-lm"])]
+    if PLATFORMS[platform].suffix == ".so":
         linking += ["-Wl,-s", "-Wl,--build-id=none", "-ldl"]
-    _compile([*compiler, *FLAGS, *flags], sources, output, linking)
+    if platform == "darwin64":
+        linking.append("-Wl,-s")
+    _compile([*compiler, *FLAGS, *PLATFORMS[platform].flags, *flags], sources, output, linking)
 
 
 def compile_program(
     sources: Sequence[Path], output: Path, *, compiler: Sequence[str], flags: Sequence[str] = ()
 ) -> None:
     """Compile C sources into a program for this machine, which may use what POSIX adds to C; raises as the above."""
-    linking = [] if own_platform() == "win64" else ["-lm", "-ldl"]
+    linking = [] if sys.platform == "win32" else ["-lm", "-ldl"]
     _compile([*compiler, *FLAGS, "-D_GNU_SOURCE", *flags], sources, output, linking)
 
 

@@ -1,4 +1,4 @@
-"""Tables as an image: what ``fmu_src/native/image.c`` reads, from a file or from an array in the sources."""
+"""Tables as an image, a file that ``fmu_src/native/image.c`` reads, and as C."""
 
 from __future__ import annotations
 
@@ -7,19 +7,17 @@ import zlib
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from ..lists import Finding, Severity
 from ..runtime import Compiled
-from .layout import ctypes_of, to_c
 from .places import layout
+from .records import initializer, record_bytes, wrapped
 
-MAGIC = b"AXCOMPT2"
+MAGIC = b"AXCOMPT3"
 HEADER_BEFORE_CHECK = struct.Struct("<8sIHHI")
 HEADER_AFTER_CHECK = struct.Struct("<40sdI228s")
 SAID = 227
 """Bytes of the first error that an image tells."""
-WORDS_A_LINE = 6
 
 
 def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) -> bytes:
@@ -35,27 +33,32 @@ def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) ->
     tables, pool = compiled
     axes = tables.axis[: tables.axis_count]
     volumetrics = tables.volumetric[: tables.volumetrics]
-    body = b"".join(_bytes_of(axis) for axis in axes)
-    body += b"".join(_bytes_of(volumetric) for volumetric in volumetrics)
+    body = b"".join(map(record_bytes, [*axes, *volumetrics]))
     body += struct.pack(f"<{len(pool)}d", *pool)
     before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(pool))
     checked = HEADER_AFTER_CHECK.pack(guid.encode()[:40], tables.cycle_time, len(errors), said) + body
     return before + struct.pack("<I", zlib.crc32(checked)) + checked
 
 
-def image_source(image: bytes) -> str:
-    """Return an image as C: an array of 64-bit words, so that it is aligned as the records are."""
-    padded = image.ljust(-(-len(image) // 8) * 8, b"\0")
-    words = [f"0x{word:x}u" for (word,) in struct.iter_unpack("<Q", padded)]
-    lines = [", ".join(words[i : i + WORDS_A_LINE]) for i in range(0, len(words), WORDS_A_LINE)]
-    return (
-        '/* The tables of this machine; see image.h. */\n#include "image.h"\n\n'
-        f"const unsigned int axcomp_image_size = {len(image)}u;\n"
-        f"const unsigned long long axcomp_image[{len(words)}] = {{\n    " + ",\n    ".join(lines) + "\n};\n"
+def tables_source(compiled: Compiled, guid: str) -> str:
+    """Return tables as C: records that the compiler initializes, for any byte order and pointer size."""
+    tables, pool = compiled
+    axes, volumetrics = tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics]
+    identity = zlib.crc32(guid.encode())
+    parts = ['/* The tables of this machine. */\n#include "image.h"\n\n#include <stddef.h>\n']
+    parts.append(_array("double", "pool", [repr(number) for number in pool] or ["0.0"]))
+    parts.append(_array("AxisTable", "axes", [initializer(axis) for axis in axes]))
+    if volumetrics:
+        parts.append(_array("VolumetricTable", "volumetrics", [initializer(one) for one in volumetrics]))
+    tables_of = f"{tables.cycle_time!r}, {len(axes)}, (AxisTable *)axes, {len(volumetrics)}, "
+    tables_of += "(VolumetricTable *)volumetrics" if volumetrics else "NULL"
+    parts.append(
+        "/* Nothing writes through the pointers: these tables are in force from beginning to end. */\n"
+        f'const Lists axcomp_tables = {{{{{tables_of}}}, pool, {len(pool)}, 0x{identity:08x}u, "{guid}"}};\n'
     )
+    return "\n".join(parts)
 
 
-def _bytes_of(record: Any) -> bytes:
-    structure = ctypes_of(type(record))()
-    to_c(record, structure)
-    return bytes(structure)
+def _array(kind: str, name: str, elements: list[str]) -> str:
+    lines = wrapped(", ".join(elements)) if kind == "double" else ",\n".join(map(wrapped, elements))
+    return f"static const {kind} {name}[{len(elements)}] = {{\n{lines}\n}};\n"

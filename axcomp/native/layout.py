@@ -7,7 +7,7 @@ from functools import cache
 from typing import Annotated, Any, get_args, get_origin
 
 from ..interface import steps_of
-from ..kernel import fields_of
+from ..kernel import APART, fields_of
 
 _SCALARS = {float: ctypes.c_double, int: ctypes.c_int32, bool: ctypes.c_bool}
 
@@ -15,7 +15,7 @@ _SCALARS = {float: ctypes.c_double, int: ctypes.c_int32, bool: ctypes.c_bool}
 def ctypes_of(cls: Any) -> type[ctypes.Structure]:
     """Return the structure of a record class: the same fields in the same order as in the translated header.
 
-    float → double, int → int32, bool → bool, records and arrays in place.
+    float → double, int → int32, bool → bool, records and arrays in place, arrays that lie apart as pointers.
     """
     return _structure_of(cls)
 
@@ -33,7 +33,11 @@ def to_c(record: Any, struct: ctypes.Structure) -> None:
         if hint in _SCALARS:
             setattr(struct, name, value)
         elif get_origin(hint) is Annotated:
-            _list_to_c(value, getattr(struct, name))
+            array = getattr(struct, name)
+            if _is_apart(hint):
+                array = (array._type_ * max(len(value), 1))()
+                setattr(struct, name, array)  # which keeps it alive
+            _list_to_c(value, array)
         else:
             to_c(value, getattr(struct, name))
 
@@ -53,35 +57,37 @@ def _ctype(hint: Any) -> Any:
     if hint in _SCALARS:
         return _SCALARS[hint]
     if get_origin(hint) is Annotated:
-        return _ctype(get_args(get_args(hint)[0])[0]) * hint.__metadata__[0]
+        element = _ctype(get_args(get_args(hint)[0])[0])
+        return ctypes.POINTER(element) if _is_apart(hint) else element * hint.__metadata__[0]
     return ctypes_of(hint)
 
 
+def _is_apart(hint: Any) -> bool:
+    return APART in hint.__metadata__
+
+
 def _list_to_c(values: list[Any], array: Any) -> None:
-    if values and isinstance(array[0], ctypes.Structure):
+    if issubclass(array._type_, ctypes.Structure):
         for record, struct in zip(values, array, strict=False):
             to_c(record, struct)
     else:
         array[: len(values)] = values
 
 
-def offset_of(cls: Any, path: str) -> int:
-    """Return how many bytes a field lies behind the begin of a record; ``path`` as in ``interface.slot``."""
-    kind: Any = ctypes_of(cls)
-    offset = 0
-    for step in steps_of(path):
-        if isinstance(step, int):
-            kind = kind._type_
-            offset += step * ctypes.sizeof(kind)
-        else:
-            offset += getattr(kind, step).offset
-            kind = dict(kind._fields_)[step]
-    return offset
-
-
 def _list_from_c(array: Any, values: list[Any]) -> None:
-    if values and isinstance(array[0], ctypes.Structure):
-        for struct, record in zip(array, values, strict=False):
-            from_c(struct, record)
+    if issubclass(array._type_, ctypes.Structure):
+        for i, record in enumerate(values):
+            from_c(array[i], record)
     else:
         values[:] = array[: len(values)]
+
+
+def address_of(struct: ctypes.Structure, path: str) -> int:
+    """Return where in memory a field of a structure is; ``path`` as in ``interface.slot``."""
+    *steps, last = steps_of(path)
+    owner: Any = struct
+    for step in steps:
+        owner = owner[step] if isinstance(step, int) else getattr(owner, step)
+    if isinstance(last, int):
+        return ctypes.addressof(owner) + last * ctypes.sizeof(owner._type_)
+    return ctypes.addressof(owner) + int(getattr(type(owner), last).offset)

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-import ctypes
+import dataclasses
 import re
 import zlib
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_
 from ..kinds import KIND_NAMES, KINDS
 from ..model import CYCLE_TIME_MAX
 from ..runtime import NO_COMMAND, ON_INSTANT
-from .layout import ctypes_of
+from .records import parts_of, size_of
 
 GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
 TABLES = {
@@ -42,7 +42,7 @@ _KIND = re.compile(r"^(wanted|active|contribution)\[(\d+)\]")
 
 def layout() -> int:
     """Return a number that changes whenever a record changes that lies in an image or in a state."""
-    text = "\n".join(line for cls in (AxisTable, VolumetricTable, State, Inputs, Outputs) for line in _layout_of(cls))
+    text = "\n".join(line for cls in (AxisTable, VolumetricTable, State, Inputs, Outputs) for line in _fields_in(cls))
     return zlib.crc32(text.encode())
 
 
@@ -53,6 +53,8 @@ def layout_header() -> str:
 #define AXCOMP_LAYOUT_H
 
 #define AXCOMP_LAYOUT 0x{layout():08x}u  /* of the records in images and states */
+#define AXCOMP_AXIS_BYTES {size_of(AxisTable)}u  /* of the table of an axis in an image */
+#define AXCOMP_VOLUMETRIC_BYTES {size_of(VolumetricTable)}u
 #define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
 
@@ -107,16 +109,9 @@ def _member(block: int, declared: Declaration) -> str:
     return f"Memory, {record}.{declared.field}"
 
 
-def _layout_of(cls: Any) -> list[str]:
-    structure = ctypes_of(cls)
-    return [f"{cls.__name__} {ctypes.sizeof(structure)}", *_fields_of(structure)]
-
-
-def _fields_of(structure: Any) -> Iterator[str]:
-    """Yield the fields of a structure, and those of the structures in it, with their types and places."""
-    for name, kind, *_ in structure._fields_:
-        place = getattr(structure, name)
-        yield f"{name} {kind.__name__} {place.offset} {place.size}"
-        inner = getattr(kind, "_type_", kind)
-        if isinstance(inner, type) and issubclass(inner, ctypes.Structure):
-            yield from _fields_of(inner)
+def _fields_in(cls: Any) -> Iterator[str]:
+    """Yield the fields of a record, and behind each those of the records in it, with their types and lengths."""
+    for part in parts_of(cls):
+        yield f"{part.name} {part.type.__name__} {part.count}"
+        if dataclasses.is_dataclass(part.type):
+            yield from _fields_in(part.type)

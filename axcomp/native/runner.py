@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..interface import Variable
-from ..kernel import Inputs, Outputs, Tables, Vec
+from ..kernel import Tables, Vec
 from ..runtime import Runtime
-from .layout import ctypes_of, from_c, offset_of, to_c
+from .layout import address_of, ctypes_of, from_c, to_c
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,7 +21,7 @@ DOUBLES = ctypes.POINTER(ctypes.c_double)
 
 
 class _Field(ctypes.Structure):
-    _fields_ = (("offset", ctypes.c_int32), ("type", ctypes.c_char))
+    _fields_ = (("at", ctypes.c_void_p), ("type", ctypes.c_char))
 
 
 class CompiledTables:
@@ -55,16 +55,17 @@ def run_compiled(
     records = [(record, ctypes_of(type(record))()) for record in (runtime.state, runtime.inputs, runtime.outputs)]
     for record, struct in records:
         to_c(record, struct)
+    _, inputs, outputs = (struct for _, struct in records)
     values = np.empty((len(rows), len(results)))
     kernel.axcomp_run(
         ctypes.byref(compiled.structure),
         compiled.pool.ctypes.data_as(DOUBLES),
         *(ctypes.byref(struct) for _, struct in records),
         ctypes.c_int64(len(rows)),
-        _fields(Inputs, given),
+        _fields(inputs, given),
         ctypes.c_int32(len(given)),
         rows.ctypes.data_as(DOUBLES),
-        _fields(Outputs, results),
+        _fields(outputs, results),
         ctypes.c_int32(len(results)),
         values.ctypes.data_as(DOUBLES),
     )
@@ -74,7 +75,7 @@ def run_compiled(
     return values
 
 
-def _fields(cls: Any, variables: Sequence[Variable]) -> Any:
+def _fields(struct: ctypes.Structure, variables: Sequence[Variable]) -> Any:
     fields = (_Field * len(variables))()
     for field, variable in zip(fields, variables, strict=True):
         owner = ""
@@ -82,6 +83,6 @@ def _fields(cls: Any, variables: Sequence[Variable]) -> Any:
             owner = f"axis[{variable.axis}]."
         elif variable.volumetric is not None:
             owner = f"volumetric[{variable.volumetric}]."
-        field.offset = offset_of(cls, owner + variable.field)
+        field.at = address_of(struct, owner + variable.field)
         field.type = {float: b"r", bool: b"b", int: b"i"}[type(variable.start)]
     return fields

@@ -34,12 +34,14 @@ class RecordType:
 class ArrayType:
     """``Annotated[list[element], length]`` or ``zeros(length)``: an array of fixed length.
 
-    The element is never Scalar.NONE; ``length_text``: the length as C writes it, a number or the name of a constant.
+    The element is never Scalar.NONE; ``length_text``: the length as C writes it, a number or the name of a constant;
+    ``apart``: a record points to it, and it may be shorter.
     """
 
     element: Scalar | RecordType
     length: int
     length_text: str = field(compare=False)
+    apart: bool = field(default=False, compare=False)
 
     def __str__(self) -> str:
         return f"list[{self.element}] of length {self.length}"
@@ -87,8 +89,10 @@ def local(kind: Type, name: str, *, const: bool) -> str:
 
 
 def struct_field(kind: Type, name: str) -> str:
-    """Declare a field of a struct, which holds its records and arrays itself, and no Vec."""
+    """Declare a field of a struct, which holds its records and most arrays itself, and no Vec."""
     assert not isinstance(kind, VecType)
     if isinstance(kind, ArrayType):
+        if kind.apart:
+            return f"{_base(kind.element)} *{name}"
         return f"{_base(kind.element)} {name}[{kind.length_text}]"
     return f"{_base(kind)} {name}"

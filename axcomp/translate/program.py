@@ -19,7 +19,7 @@ _IMPORTABLE = {
     "dataclasses": {"dataclass"},
     "math": {"sqrt"},
     "typing": {"Annotated", "Final"},
-    RUN_TIME_MODULE: {"Vec", "whole", "zero", "zeros"},
+    RUN_TIME_MODULE: {"APART", "Vec", "whole", "zero", "zeros"},
 }
 _SCALARS = {"int": Scalar.INT, "float": Scalar.FLOAT, "bool": Scalar.BOOL}
 _INT_LIMIT = 2**31
@@ -204,11 +204,13 @@ class Program:
 
     def _array(self, module: Module, node: ast.Subscript) -> ArrayType:
         match node.slice:
-            case ast.Tuple(elts=[ast.Subscript(value=ast.Name(id="list"), slice=inner), length]):
+            case ast.Tuple(elts=[ast.Subscript(value=ast.Name(id="list"), slice=inner), length, *marks]) if all(
+                self.entity(module, mark) == Intrinsic("APART") for mark in marks
+            ):
                 element = self.annotation(module, inner, node)
                 if not isinstance(element, Scalar | RecordType) or element is Scalar.NONE:
                     raise RefusedError(node, "an array holds int, float, bool or records")
-                return ArrayType(element, *self.length(module, length))
+                return ArrayType(element, *self.length(module, length), apart=bool(marks))
         raise RefusedError(node, f"{ast.unparse(node)} is no type of the subset: write Annotated[list[float], N]")
 
     def _take(self, module: Module, node: ast.stmt) -> None:

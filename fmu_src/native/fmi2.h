@@ -1,8 +1,29 @@
-/* FMI 2.0 for co-simulation: types and functions, as the standard names them (section 2.1 and 4.2). */
+/* FMI 2.0 for co-simulation, types and functions (sections 2.1 and 4.2).
+ *
+ * An importer that compiles these sources has headers of its own: with fmi2Functions.h it says how functions are called.
+ * Where there is none, what they need stands here. */
 #ifndef AXCOMP_FMI2_H
 #define AXCOMP_FMI2_H
 
 #include <stddef.h>
+
+#include "config.h"
+
+#if defined(__has_include)
+#if __has_include("fmi2Functions.h")
+#define AXCOMP_IMPORTERS_HEADER
+#endif
+#endif
+
+#if defined(AXCOMP_IMPORTERS_HEADER)
+#include "fmi2Functions.h"
+#define FMI2_NAME(name) name
+#if defined(__cplusplus)
+#define FMI2_EXPORT extern "C" FMI2_Export
+#else
+#define FMI2_EXPORT FMI2_Export
+#endif
+#else
 
 #define fmi2TypesPlatform "default"
 #define fmi2Version "2.0"
@@ -47,7 +68,7 @@ typedef struct {
     fmi2Real nextEventTime;
 } fmi2EventInfo;
 
-/* A source-code FMU that is linked statically puts the model's name before every function. */
+/* What is linked statically has the model's name before every function; in a shared library there is no prefix. */
 #if defined(FMI2_FUNCTION_PREFIX) && !defined(FMI2_OVERRIDE_FUNCTION_PREFIX)
 #define FMI2_PASTE(a, b) a##b
 #define FMI2_PASTE_EXPANDED(a, b) FMI2_PASTE(a, b)
@@ -68,6 +89,8 @@ typedef struct {
 #define FMI2_EXPORT FMI2_LINKAGE __attribute__((visibility("default")))
 #else
 #define FMI2_EXPORT FMI2_LINKAGE
+#endif
+
 #endif
 
 #endif

@@ -1,11 +1,13 @@
 /* The functions of FMI 2.0 for co-simulation that create instances and take them through their phases. Each first looks
  * whether it may be called now, and with what. Values are in values.c, states in states.c. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "fmi2.h"
 #include "instance.h"
+#if !defined(AXCOMP_EMBEDDED)
+#include "lists.h"
+#endif
 
 /* ---- What is the same for all FMUs ---- */
 
@@ -17,6 +19,17 @@ FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void)
 FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void)
 {
     return fmi2Version;
+}
+
+/* What the host wants to know from now on; `categories`: see Instance. */
+static void log_as_wanted(Instance *instance, fmi2Boolean on, unsigned categories)
+{
+#if defined(AXCOMP_EMBEDDED)
+    (void)instance, (void)on, (void)categories;
+#else
+    instance->logging = on != fmi2False;
+    instance->categories = categories;
+#endif
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, fmi2Boolean on, size_t count,
@@ -43,18 +56,18 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, f
         }
         wanted |= known == CATEGORY_ALL ? ~0u : 1u << known;
     }
-    instance->logging = on != fmi2False;
-    instance->categories = wanted;
+    log_as_wanted(instance, on, wanted);
     return fmi2OK;
 }
 
 /* ---- Creation and destruction ---- */
 
-/* Read the tables that belong to this FMU; NULL after telling the host why that does not work. */
-static Lists *read_own_lists(Instance *instance, fmi2String location)
+/* The tables that belong to this FMU; NULL after telling the host why there are none. */
+static const Lists *own_lists(Instance *instance, fmi2String location)
 {
 #if defined(AXCOMP_EMBEDDED)
-    (void)location;
+    (void)instance, (void)location;
+    return &axcomp_tables;
 #else
     static const char FILE_NAME[] = "tables.bin";
     int known = location != NULL && location[0] != 0 ? axcomp_path_of(location, FILE_NAME, instance->own_path)
@@ -63,8 +76,9 @@ static Lists *read_own_lists(Instance *instance, fmi2String location)
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
         return NULL;
     }
+    Lists *lists = axcomp_read_lists(instance, fmi2Error, "fmi2Instantiate", instance->own_path);
+    return lists != NULL ? axcomp_share_lists(lists) : NULL;
 #endif
-    return axcomp_read_lists(instance, fmi2Error, "fmi2Instantiate", instance->own_path);
 }
 
 FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
@@ -72,22 +86,15 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
                                                      fmi2Boolean visible, fmi2Boolean logging)
 {
     (void)visible;
-    Instance *instance = (Instance *)calloc(1, sizeof *instance);
+    const char *known = name != NULL ? name : "";
+    Instance *instance = axcomp_new_instance(known);
     if (instance == NULL) {
         return NULL;
     }
     if (callbacks != NULL) {
         instance->callbacks = *callbacks;
     }
-    instance->logging = logging != fmi2False;
-    instance->categories = ~0u;
-    const char *known = name != NULL ? name : "";
-    instance->name = (char *)malloc(strlen(known) + 1);
-    if (instance->name == NULL) {
-        axcomp_free_instance(instance);
-        return NULL;
-    }
-    memcpy(instance->name, known, strlen(known) + 1);
+    log_as_wanted(instance, logging, ~0u);
 
     int usable = 0;
     if (known[0] == 0) {
@@ -97,11 +104,18 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
     } else if (guid == NULL) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
     } else {
-        instance->first = read_own_lists(instance, location);
+        instance->first = own_lists(instance, location);
         usable = instance->first != NULL && strcmp(guid, instance->first->guid) == 0;
         if (!usable && instance->first != NULL) {
             axcomp_say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,
                        instance->first->guid);
+        }
+    }
+    if (usable) {
+        axcomp_shape_of(&instance->first->tables, &instance->shape);
+        usable = axcomp_give_arrays(instance);
+        if (!usable) {
+            axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no memory for the instance");
         }
     }
     if (!usable) {

@@ -1,4 +1,4 @@
-/* Images of tables: checked, then copied into the kernel's records. */
+/* Images of tables: checked, then read into the kernel's records. */
 #include "image.h"
 
 #include <stdbool.h>
@@ -6,80 +6,115 @@
 #include <string.h>
 
 #include "layout.h"
+#include "memory.h"
+#include "records.h"
 
-uint32_t axcomp_crc32(uint32_t check, const void *data, size_t size)
+static uint32_t read_uint(const unsigned char *from, int bytes)
 {
-    static const uint32_t NIBBLES[16] = {
-        0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u, 0x4db26158u, 0x5005713cu,
-        0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu, 0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu,
-    };
-    const unsigned char *bytes = (const unsigned char *)data;
-    check = ~check;
-    for (size_t i = 0; i < size; i++) {
-        check ^= bytes[i];
-        check = (check >> 4) ^ NIBBLES[check & 15u];
-        check = (check >> 4) ^ NIBBLES[check & 15u];
+    uint32_t value = 0;
+    for (int i = 0; i < bytes; i++) {
+        value |= (uint32_t)from[i] << 8 * i;
     }
-    return ~check;
+    return value;
 }
 
-/* Whether the header promises exactly the bytes that are there. */
-static bool size_fits(const ImageHeader *header, size_t size)
+static double read_double(const unsigned char *from)
 {
-    if (header->axes > AXES || header->volumetrics > VOLUMETRICS || header->numbers > INT32_MAX) {
-        return false;
+    uint64_t bits = (uint64_t)read_uint(from + 4, 4) << 32 | read_uint(from, 4);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Read the fields of a record; returns what is behind them. */
+static const unsigned char *read_record(const unsigned char *from, const Part *part, void *record)
+{
+    for (; part->type != 0; part++) {
+        for (int32_t k = 0; k < part->count; k++) {
+            char *at = (char *)record + part->offset + (size_t)k * part->size;
+            if (part->type == 'd') {
+                double value = read_double(from);
+                memcpy(at, &value, sizeof value);
+                from += 8;
+            } else if (part->type == 'i') {
+                int32_t value = (int32_t)read_uint(from, 4);
+                memcpy(at, &value, sizeof value);
+                from += 4;
+            } else if (part->type == 'b') {
+                bool value = *from++ != 0;
+                memcpy(at, &value, sizeof value);
+            } else {
+                from = read_record(from, part->parts, at);
+            }
+        }
     }
-    uint64_t expected = sizeof *header + (uint64_t)header->axes * sizeof(AxisTable)
-        + (uint64_t)header->volumetrics * sizeof(VolumetricTable) + (uint64_t)header->numbers * sizeof(double);
-    return expected == size;
+    return from;
+}
+
+void axcomp_free_lists(Lists *lists)
+{
+    if (lists != NULL) {
+        free(lists->tables.axis);
+        free(lists->tables.volumetric);
+        free((void *)lists->pool);
+        free(lists);
+    }
 }
 
 const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lists)
 {
-    ImageHeader header;
     memset(lists, 0, sizeof *lists);
-    if (size < sizeof header) {
+    if (size < HEADER_LENGTH) {
         return "it is truncated";
     }
-    memcpy(&header, data, sizeof header);
-    if (memcmp(header.magic, "AXCOMPT2", sizeof header.magic) != 0) {
+    if (memcmp(data, "AXCOMPT3", 8) != 0) {
         return "it is no image of axcomp's tables";
     }
-    if (header.layout != AXCOMP_LAYOUT) {
-        return "it belongs to another version of axcomp, or to another kind of processor";
+    if (read_uint(data + 8, 4) != AXCOMP_LAYOUT) {
+        return "it belongs to another version of axcomp";
     }
-    if (!size_fits(&header, size)) {
+    uint32_t axes = read_uint(data + 12, 2), volumetrics = read_uint(data + 14, 2), numbers = read_uint(data + 16, 4);
+    uint64_t expected = HEADER_LENGTH + (uint64_t)axes * AXCOMP_AXIS_BYTES
+        + (uint64_t)volumetrics * AXCOMP_VOLUMETRIC_BYTES + (uint64_t)numbers * 8u;
+    if (axes > AXES || volumetrics > VOLUMETRICS || numbers > INT32_MAX || expected != size) {
         return "it is truncated, or has bytes too many";
     }
-    size_t checked = offsetof(ImageHeader, check) + sizeof header.check;
-    if (axcomp_crc32(0, data + checked, size - checked) != header.check) {
+    if (axcomp_crc32(0, data + 24, size - 24) != read_uint(data + 20, 4)) {
         return "it has been altered: its checksum does not fit";
     }
-    if (header.guid[GUID_LENGTH - 1] != 0) {
+    const unsigned char *guid = data + 24, *said = data + 76;
+    if (guid[GUID_LENGTH - 1] != 0) {
         return "its guid is too long";
     }
-    if (header.said[SAID_LENGTH - 1] != 0) {
+    if (said[SAID_LENGTH - 1] != 0) {
         return "the first error of its lists is too long";
     }
 
     Tables *tables = &lists->tables;
-    const unsigned char *from = data + sizeof header;
-    memcpy(tables->axis, from, header.axes * sizeof(AxisTable));
-    from += header.axes * sizeof(AxisTable);
-    memcpy(tables->volumetric, from, header.volumetrics * sizeof(VolumetricTable));
-    from += header.volumetrics * sizeof(VolumetricTable);
-    lists->pool = (double *)calloc(header.numbers + 1u, sizeof(double));
-    if (lists->pool == NULL) {
+    double *pool = (double *)calloc(numbers + 1u, sizeof(double));
+    lists->pool = pool;
+    tables->axis = (AxisTable *)calloc(axes + 1u, sizeof(AxisTable));
+    tables->volumetric = (VolumetricTable *)calloc(volumetrics + 1u, sizeof(VolumetricTable));
+    if (pool == NULL || tables->axis == NULL || tables->volumetric == NULL) {
         return "there is no memory for it";
     }
-    memcpy(lists->pool, from, header.numbers * sizeof(double));
-    lists->cycle_time = tables->cycle_time = header.cycle_time;
-    tables->axis_count = header.axes;
-    tables->volumetrics = header.volumetrics;
-    lists->numbers = (int32_t)header.numbers;
-    lists->identity = header.check;
-    memcpy(lists->guid, header.guid, sizeof lists->guid);
-    lists->found = header.errors;
-    memcpy(lists->said, header.said, sizeof lists->said);
-    return axcomp_tables_fit(tables, lists->pool, lists->numbers) ? NULL : "its tables contradict themselves";
+    const unsigned char *from = data + HEADER_LENGTH;
+    for (uint32_t i = 0; i < axes; i++) {
+        from = read_record(from, axcomp_axis_parts, &tables->axis[i]);
+    }
+    for (uint32_t k = 0; k < volumetrics; k++) {
+        from = read_record(from, axcomp_volumetric_parts, &tables->volumetric[k]);
+    }
+    for (uint32_t n = 0; n < numbers; n++) {
+        pool[n] = read_double(from + 8u * n);
+    }
+    tables->cycle_time = read_double(data + 64);
+    tables->axis_count = (int32_t)axes;
+    tables->volumetrics = (int32_t)volumetrics;
+    lists->numbers = (int32_t)numbers;
+    lists->identity = read_uint(data + 20, 4);
+    lists->found = read_uint(data + 72, 4);
+    memcpy(lists->guid, guid, sizeof lists->guid);
+    memcpy(lists->said, said, sizeof lists->said);
+    return axcomp_tables_fit(tables, pool, lists->numbers) ? NULL : "its tables contradict themselves";
 }

@@ -1,13 +1,15 @@
-/* What an instance does between the calls of FMI: initial values, updates, cycles, messages. */
+/* What an instance does between the calls of FMI: initial values, cycles, messages. */
 #include "instance.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "places.h"
+
+#if !defined(AXCOMP_EMBEDDED)
+#include <stdarg.h>
+#include <stdio.h>
+#endif
 
 enum { MESSAGE_LENGTH = 1024 };
 
@@ -15,6 +17,14 @@ static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
 
+#if defined(AXCOMP_EMBEDDED)
+/* A real-time system has no log. */
+fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
+{
+    (void)instance, (void)format;
+    return status;
+}
+#else
 fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
 {
     int category = status == fmi2OK ? CATEGORY_ALL : status == fmi2Warning ? CATEGORY_WARNING : CATEGORY_ERROR;
@@ -41,214 +51,90 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
                                axcomp_log_categories[category], doubled);
     return status;
 }
+#endif
 
 bool axcomp_cycle_time_fits(double cycle_time)
 {
     return cycle_time > 0.0 && cycle_time < AXCOMP_CYCLE_TIME_MAX;
 }
 
+void axcomp_use_lists(Instance *instance, const Lists *lists)
+{
+    instance->lists = lists;
+    instance->tables = lists->tables;
+    instance->tables.cycle_time = instance->memory.controls.cycle_time;
+}
+
+void axcomp_place_arrays(Instance *instance)
+{
+    const Shape *shape = &instance->shape;
+    size_t state = axcomp_state_size(shape), inputs = axcomp_inputs_size(shape);
+    char *block = (char *)instance->block;
+    axcomp_place_state(&instance->memory.state, block, shape);
+    axcomp_place_state(&instance->preview, block + state, shape);
+    axcomp_place_inputs(&instance->memory.inputs, block + 2u * state, shape);
+    axcomp_place_outputs(&instance->memory.outputs, block + 2u * state + inputs, shape);
+}
+
 void axcomp_begin_again(Instance *instance)
 {
     Memory *memory = &instance->memory;
+    const Shape *shape = &instance->shape;
     memset(memory, 0, sizeof *memory);
-    instance->lists = instance->first;
-    instance->waiting = NULL;
+    memset(instance->block, 0,
+           2u * axcomp_state_size(shape) + axcomp_inputs_size(shape) + axcomp_outputs_size(shape));
+    axcomp_place_arrays(instance);
     memset(instance->told, 0, sizeof instance->told);
     memory->phase = INSTANTIATED;
-    memory->controls.cycle_time = instance->lists->cycle_time;
-}
-
-static void free_lists(Lists *lists)
-{
-    if (lists != NULL) {
-        free(lists->pool);
-        free(lists);
-    }
-}
-
-Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path)
-{
-    const char *complaint = "there is no memory for it";
-    Lists *lists = (Lists *)calloc(1, sizeof *lists);
-#if defined(AXCOMP_EMBEDDED)
-    if (path[0] == 0) {
-        path = "the image in the sources";
-        if (lists != NULL) {
-            complaint = axcomp_read_image((const unsigned char *)axcomp_image, axcomp_image_size, lists);
-        }
-    } else
+    memory->controls.cycle_time = instance->first->tables.cycle_time;
+    axcomp_use_lists(instance, instance->first);
+#if !defined(AXCOMP_EMBEDDED)
+    instance->waiting = NULL;
 #endif
-    {
-        size_t size = 0;
-        unsigned char *data = axcomp_read_file(path, &size);
-        if (data == NULL) {
-            axcomp_say(instance, status, "%s: %s cannot be read", call, path);
-            free_lists(lists);
-            return NULL;
-        }
-        if (lists != NULL) {
-            complaint = axcomp_read_image(data, size, lists);
-        }
-        free(data);
-    }
-    if (complaint != NULL) {
-        axcomp_say(instance, status, "%s: %s is refused: %s", call, path, complaint);
-        free_lists(lists);
-        return NULL;
-    }
-    return lists;
 }
 
-/* Let an axis of new lists keep the tables that are in force. */
-static bool keep_axis(Lists *lists, const Lists *now, int i)
-{
-    const AxisTable *old = &now->tables.axis[i];
-    size_t count = (size_t)lists->numbers + (size_t)old->numbers;
-    double *pool = (double *)realloc(lists->pool, (count + 1u) * sizeof *pool);
-    if (pool == NULL) {
-        return false;
-    }
-    memcpy(pool + lists->numbers, now->pool + old->first, (size_t)old->numbers * sizeof *pool);
-    lists->pool = pool;
-    lists->tables.axis[i] = *old;
-    axcomp_move_axis_table(&lists->tables.axis[i], lists->numbers);
-    lists->numbers = (int32_t)count;
-    return true;
-}
-
-/* Tell whether new lists have no volumetric compensation that was not declared at the start. */
-static bool volumetrics_fit(const Lists *lists, const Lists *declared)
-{
-    for (int k = 0; k < lists->tables.volumetrics; k++) {
-        if (lists->tables.volumetric[k].configured && !declared->tables.volumetric[k].configured) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Tell whether new lists can be taken at all; those axes that cannot take theirs get the ones in force. */
-static bool fit_update(const Instance *instance, Lists *lists)
-{
-    const Lists *now = instance->lists;
-    if (lists->tables.axis_count != now->tables.axis_count || !volumetrics_fit(lists, instance->first)) {
-        axcomp_say(instance, fmi2Warning,
-                   "reload: the new lists have other axes or compensations than the ones in force");
-        return false;
-    }
-    if (lists->found > 0) {
-        axcomp_say(instance, fmi2Warning, "reload: the new lists are refused: errors in them: %u, the first: %s",
-                   (unsigned)lists->found, lists->said);
-        return false;
-    }
-    uint32_t mixed = axcomp_crc32(lists->identity, &now->identity, sizeof now->identity);
-    for (int i = 0; i < now->tables.axis_count; i++) {
-        const AxisTable *old = &now->tables.axis[i];
-        lists->errors[i] = axcomp_update_error(old, &lists->tables.axis[i]);
-        if (lists->errors[i] == ERROR_UPDATE) {
-            axcomp_say(instance, fmi2Warning, "reload: the new lists do not fit axis %d", old->number);
-            return false;
-        }
-        if (lists->errors[i] != 0) {
-            axcomp_say(instance, fmi2Warning, "reload: axis %d keeps its old lists: error %d", old->number,
-                       lists->errors[i]);
-            lists->identity = mixed;
-            if (!keep_axis(lists, now, i)) {
-                axcomp_say(instance, fmi2Warning, "reload: there is no memory for the new lists");
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
-{
-    Lists *lists = instance->first;
-    while (lists != NULL && lists->identity != identity) {
-        lists = lists->next;
-    }
-    return lists;
-}
-
+#if defined(AXCOMP_EMBEDDED)
+/* There are no other lists than those in the sources: an update is refused. */
 void axcomp_watch_reload(Instance *instance, bool path_set)
 {
-    Memory *memory = &instance->memory;
-    if (!memory->controls.reload) {
-        instance->waiting = NULL;
-        memory->refused = false;
-        return;
-    }
-    bool is_read = instance->waiting != NULL || memory->refused;
-    if (memory->reload_seen || (is_read && !path_set)) {
-        return;
-    }
-    char path[PATH_LENGTH];
-    axcomp_path_of(memory->controls.update_path, NULL, path);
-    Lists *lists = axcomp_read_lists(instance, fmi2Warning, "reload", path[0] != 0 ? path : instance->own_path);
-    if (lists != NULL && !fit_update(instance, lists)) {
-        free_lists(lists);
-        lists = NULL;
-    }
-    if (lists != NULL) {
-        /* The same again needs no memory: an instance may be updated as often as one likes. */
-        Lists *known = axcomp_lists_with(instance, lists->identity);
-        if (known != NULL) {
-            free_lists(lists);
-            lists = known;
-        } else {
-            lists->next = instance->first->next;
-            instance->first->next = lists;
-        }
-    }
-    instance->waiting = lists;
-    memory->refused = lists == NULL;
+    (void)path_set;
+    instance->memory.refused = instance->memory.controls.reload && !instance->memory.reload_seen;
 }
 
-/* Take the lists that wait, or tell by the outputs that they were refused. */
-static void take_update(Instance *instance)
+void axcomp_take_update(Instance *instance)
 {
     Memory *memory = &instance->memory;
-    Lists *before = instance->lists;
-    Lists *after = instance->waiting;
-    if (memory->refused || after != NULL) {
-        for (int i = 0; i < before->tables.axis_count; i++) {
-            int32_t error = memory->refused ? ERROR_UPDATE : after->errors[i];
-            memory->state.axis[i].error = memory->outputs.axis[i].error = error;
-            if (error == 0) {
-                axcomp_adopt_axis(&before->tables.axis[i], before->pool, &after->tables.axis[i], after->pool,
-                                  &memory->state, &memory->inputs.axis[i], i);
-            }
-        }
+    for (int32_t i = 0; memory->refused && i < instance->tables.axis_count; i++) {
+        memory->state.axis[i].error = memory->outputs.axis[i].error = ERROR_UPDATE;
     }
-    if (after != NULL) {
-        axcomp_adopt_volumetrics(&before->tables, &after->tables, &memory->state, &memory->outputs);
-        after->tables.cycle_time = before->tables.cycle_time;
-        instance->lists = after;
-    }
-    instance->waiting = NULL;
     memory->refused = false;
     memory->reload_seen = memory->controls.reload;
 }
 
+const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
+{
+    return instance->first->identity == identity ? instance->first : NULL;
+}
+#endif
+
 void axcomp_preview_outputs(Instance *instance)
 {
     Memory *memory = &instance->memory;
-    instance->lists->tables.cycle_time = memory->controls.cycle_time;
-    instance->preview = memory->state;
-    axcomp_cycle(&instance->lists->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
+    instance->tables.cycle_time = memory->controls.cycle_time;
+    axcomp_copy_state(&instance->preview, &memory->state, &instance->shape);
+    axcomp_cycle(&instance->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
 }
 
 /* Tell, once for an axis and a kind, that a compensation is used beyond its table, and of switches that are none. */
 static void give_notices(Instance *instance)
 {
-    for (int i = 0; i < instance->lists->tables.axis_count; i++) {
+    for (int i = 0; i < instance->tables.axis_count; i++) {
         const AxisState *axis = &instance->memory.state.axis[i];
         for (int kind = 0; kind <= KINDS; kind++) {
             bool told = (instance->told[kind] >> i & 1u) != 0;
             if (!told && (kind < KINDS ? axcomp_has_notice(kind, &axis->compensation) : axis->error == ERROR_SWITCH)) {
                 instance->told[kind] |= 1u << i;
-                axcomp_say(instance, fmi2Warning, "axis %d: %s", instance->lists->tables.axis[i].number,
+                axcomp_say(instance, fmi2Warning, "axis %d: %s", instance->tables.axis[i].number,
                            kind < KINDS ? axcomp_notices[kind] : axcomp_no_command);
             }
         }
@@ -258,27 +144,16 @@ static void give_notices(Instance *instance)
 fmi2Status axcomp_advance(Instance *instance, double time)
 {
     Memory *memory = &instance->memory;
-    double due = ceil((time - memory->start_time) / instance->lists->tables.cycle_time - AXCOMP_ON_INSTANT);
+    double due = ceil((time - memory->start_time) / instance->tables.cycle_time - AXCOMP_ON_INSTANT);
     if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
         return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
     }
-    take_update(instance);
+    axcomp_take_update(instance);
     for (; memory->cycles < due; memory->cycles += 1.0) {
-        axcomp_cycle(&instance->lists->tables, instance->lists->pool, &memory->state, &memory->inputs, &memory->outputs);
+        axcomp_cycle(&instance->tables, instance->lists->pool, &memory->state, &memory->inputs, &memory->outputs);
     }
     give_notices(instance);
     return fmi2OK;
-}
-
-void axcomp_free_instance(Instance *instance)
-{
-    for (Lists *lists = instance->first; lists != NULL;) {
-        Lists *next = lists->next;
-        free_lists(lists);
-        lists = next;
-    }
-    free(instance->name);
-    free(instance);
 }
 
 /* The instance, if this call is allowed in its phase; else NULL, after telling the host. */

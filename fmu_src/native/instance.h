@@ -6,7 +6,13 @@
 
 #include "fmi2.h"
 #include "image.h"
+#include "memory.h"
+
+#if defined(AXCOMP_EMBEDDED)
+enum { PATH_LENGTH = 256 };  /* a path is of no use here: there are no files */
+#else
 #include "resource.h"
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,34 +25,40 @@ typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 
 typedef struct {
     double cycle_time;
     bool reload;
-    char update_path[PATH_LENGTH];
+    char update_path[PATH_LENGTH];  /* last of all: a saved state has only as much of it as is used */
 } Controls;
 
-/* Everything that changes; a copy of it is a snapshot. */
+/* Everything that changes, besides the arrays of the three records. */
 typedef struct {
     State state;
     Inputs inputs;
     Outputs outputs;
-    Controls controls;
     double start_time;  /* s */
     double cycles;      /* run so far */
     Phase phase;
     bool reload_seen;   /* `reload` was on in the last step: there is no edge until it has been off */
     bool refused;       /* the update that waits for the next step was refused */
+    Controls controls;
 } Memory;
 
 typedef struct {
     fmi2CallbackFunctions callbacks;
-    char *name;
-    char own_path[PATH_LENGTH];  /* of the image that belongs to this FMU; "": it is in the sources */
-    bool logging;
-    unsigned categories;  /* bit k: category k of axcomp_log_categories */
-    Lists *lists;         /* in force; all that were ever read hang behind `first` */
-    Lists *waiting;       /* read by `reload`, for the next step; NULL: none */
-    Lists *first;
+    const Lists *first;   /* those of this FMU */
+    const Lists *lists;   /* in force */
+    Tables tables;        /* theirs, with the cycle time that the host has set */
+    Shape shape;          /* of the arrays */
     Memory memory;
     State preview;        /* of the cycle that is computed during initialization, without being run */
     uint32_t told[KINDS + 1]; /* bit i: that a kind of axis i was used beyond its table; the last: a switch was none */
+    void *block;          /* the arrays of `memory` and `preview` */
+#if !defined(AXCOMP_EMBEDDED)
+    Lists *own;           /* all that were read by `reload`: a saved state may come back to them */
+    Lists *waiting;       /* of these: for the next step; NULL: none */
+    bool logging;
+    unsigned categories;  /* bit k: category k of axcomp_log_categories */
+    char *name;
+    char own_path[PATH_LENGTH];  /* of the image that belongs to this FMU */
+#endif
 } Instance;
 
 enum { CATEGORY_WARNING, CATEGORY_ERROR, CATEGORY_ALL, CATEGORIES };
@@ -55,19 +67,37 @@ extern const char *const axcomp_log_categories[CATEGORIES];
 /* Tell the host; errors always, the rest if it wants to know. Returns `status`. */
 fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...);
 
+/* Make an instance that has neither tables nor arrays yet; NULL: there is no memory. */
+Instance *axcomp_new_instance(const char *name);
+
+/* Give the instance arrays as large as its shape. Returns whether there is memory. */
+bool axcomp_give_arrays(Instance *instance);
+
+/* Let the records of the instance point into its block. */
+void axcomp_place_arrays(Instance *instance);
+
+/* Free everything. */
+void axcomp_free_instance(Instance *instance);
+
+/* Memory for a saved state, all 0; NULL: there is none. */
+void *axcomp_new_state(size_t size);
+void axcomp_free_state(void *state);
+
 /* Put the instance back to what it is right after instantiation. */
 void axcomp_begin_again(Instance *instance);
-
-/* Read the tables of an image, "": the one in the sources. Returns lists that hang nowhere yet, or NULL after telling
- * the host with `status` what is wrong; `call`: who wants them. */
-Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path);
 
 /* Look at `reload` and `update_path`, of which one has been set. On a rising edge the image is read (an empty path: the
  * FMU's own one); the next step takes or refuses it. `path_set`: what was read before may be another one. */
 void axcomp_watch_reload(Instance *instance, bool path_set);
 
+/* Take the lists that wait, or tell by the outputs that they were refused. */
+void axcomp_take_update(Instance *instance);
+
 /* The instance's lists with an identity, NULL if it has none. */
-Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
+const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
+
+/* Let lists be in force, with the cycle time that is set. */
+void axcomp_use_lists(Instance *instance, const Lists *lists);
 
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);
@@ -78,14 +108,17 @@ fmi2Status axcomp_advance(Instance *instance, double time);
 /* Whether the parameter cycle_time is possible. */
 bool axcomp_cycle_time_fits(double cycle_time);
 
-/* Free everything. */
-void axcomp_free_instance(Instance *instance);
-
 /* The instance, if a call is allowed in its phase; else NULL, after telling the host. */
 Instance *axcomp_allowed(fmi2Component component, unsigned phases, const char *function);
 
 /* The instance, if a pointer that a call needs is there; else NULL, after telling the host. */
 Instance *axcomp_given(Instance *instance, const void *pointer, const char *function);
+
+#if !defined(AXCOMP_EMBEDDED)
+/* Read the tables of an image. Returns lists that hang nowhere yet, or NULL after telling the host with `status` what is
+ * wrong; `call`: who wants them. */
+Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path);
+#endif
 
 #ifdef __cplusplus
 }

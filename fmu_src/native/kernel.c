@@ -792,7 +792,7 @@ static void decay_delayed(const FrictionTable *table, FrictionState *state)
 {
     int32_t at = state->head;
     for (int32_t n = 0, n_end = state->since_reversal; n < n_end; n++) {
-        at = at > 0 ? at - 1 : DELAY_LINE - 1;
+        at = at > 0 ? at - 1 : table->delay;
         state->line[at] = state->line[at] * n / table->lookahead;
     }
 }
@@ -825,12 +825,8 @@ static double decay_predicted(const FrictionTable *table, double velocity, doubl
 static double delayed(const FrictionTable *table, FrictionState *state, double current)
 {
     state->line[state->head] = current;
-    int32_t at = state->head - table->delay;
-    if (at < 0) {
-        at += DELAY_LINE;
-    }
-    state->head = state->head < DELAY_LINE - 1 ? state->head + 1 : 0;
-    return state->line[at];
+    state->head = state->head < table->delay ? state->head + 1 : 0;
+    return state->line[state->head];
 }
 
 /* Return the current of this cycle at full weight, and keep the delay line. */
@@ -867,15 +863,33 @@ static double friction_current(const double *pool, const FrictionTable *table, F
     return delayed(table, state, current);
 }
 
+/* Make the delay line one of another delay: what waits goes on waiting, behind it the oldest current is held. */
+static void stretch(int32_t before, int32_t after, FrictionState *state)
+{
+    double waiting[DELAY_LINE] = {0};
+    for (int32_t age = 0; age < after + 1; age++) {
+        int32_t at = state->head - 1 - int_min(age, before);
+        if (at < 0) {
+            at += before + 1;
+        }
+        waiting[age] = state->line[at];
+    }
+    for (int32_t age = 0; age < after + 1; age++) {
+        state->line[after - age] = waiting[age];
+    }
+    state->head = 0;
+}
+
 /* Go on with another table; where there was none, begin: nothing waits in the delay line. */
 static void adopt_friction(const FrictionTable *before, const FrictionTable *after, FrictionState *state)
 {
     forget(&state->lookup);
     if (before->curve.points == 0) {
         state->direction = 0;
-        for (int32_t n = 0; n < DELAY_LINE; n++) {
-            state->line[n] = 0.0;
-        }
+        state->line[0] = 0.0;
+    }
+    if (after->delay != before->delay) {
+        stretch(before->delay, after->delay, state);
     }
     state->since_reversal = int_min(state->since_reversal, after->lookahead);
 }
@@ -2875,6 +2889,10 @@ static bool axis_fits(const AxisTable *table, const double *pool, int32_t axes, 
     }
     if (!(0 <= table->first && table->first <= numbers
             && 0 <= table->numbers && table->numbers <= numbers - table->first)) {
+        return false;
+    }
+    /* there is a delay line in any case */
+    if (!(0 <= table->compensation.friction.delay && table->compensation.friction.delay < DELAY_LINE)) {
         return false;
     }
     if (!(0 <= table->kinds && table->kinds <= KINDS)) {

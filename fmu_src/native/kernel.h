@@ -96,7 +96,7 @@ typedef struct {
 
 /* The motion of all axes. */
 typedef struct {
-    AxisMotion axis[AXES];
+    AxisMotion *axis;
 } Motion;
 
 /* What a table is looked up with: the raw setpoint of an axis.
@@ -194,9 +194,9 @@ typedef struct {
     double reversal_position;
     bool built_up;  /* the axis has gone position_delay since */
     int32_t since_reversal;  /* cycles, at most lookahead */
-    int32_t head;  /* where the delay line is written next */
+    int32_t head;  /* where the delay line, of delay + 1 elements, is written next */
     bool predicted;  /* a reversal has been predicted from velocity and acceleration, for want of velocities to come */
-    double line[DELAY_LINE];
+    double *line;
 } FrictionState;
 
 /* ================================ leadscrew ================================= */
@@ -516,17 +516,17 @@ typedef struct {
 typedef struct {
     double cycle_time;
     int32_t axis_count;
-    AxisTable axis[AXES];
+    AxisTable *axis;
     int32_t volumetrics;  /* the last configured one and those before it */
-    VolumetricTable volumetric[VOLUMETRICS];
+    VolumetricTable *volumetric;
 } Tables;
 
 /* Everything that is remembered from cycle to cycle; it holds no references, a copy is a snapshot. */
 typedef struct {
     Motion motion;
-    AxisState axis[AXES];
+    AxisState *axis;
     double tool_length;  /* mm; the last one that was finite */
-    VolumetricState volumetric[VOLUMETRICS];
+    VolumetricState *volumetric;
 } State;
 
 /* Everything that is given in a cycle. */
@@ -534,15 +534,15 @@ typedef struct {
     bool reset;
     bool program_end;
     bool derive_motion;  /* velocities and accelerations are not given: they follow from the setpoints */
-    AxisInputs axis[AXES];
+    AxisInputs *axis;
     double tool_length;  /* mm */
-    VolumetricInputs volumetric[VOLUMETRICS];
+    VolumetricInputs *volumetric;
 } Inputs;
 
 /* Everything that a cycle returns. */
 typedef struct {
-    AxisOutputs axis[AXES];
-    VolumetricOutputs volumetric[VOLUMETRICS];
+    AxisOutputs *axis;
+    VolumetricOutputs *volumetric;
 } Outputs;
 
 /* ============================ volumetric_errors ============================= */

@@ -3,12 +3,9 @@
 
 #include <stddef.h>
 
-#define REFUSED(NAME, ...)                                                                                             \
-    FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component, __VA_ARGS__);                                      \
-    FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component, __VA_ARGS__)
+#define REFUSED(NAME, ...) FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component, __VA_ARGS__)
 
 #define REFUSED_WITHOUT_ARGUMENTS(NAME)                                                                                \
-    FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component);                                                   \
     FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component)                                                    \
     {                                                                                                                  \
         (void)component;                                                                                               \

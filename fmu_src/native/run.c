@@ -10,25 +10,23 @@ uint32_t axcomp_layout(void)
     return AXCOMP_LAYOUT;
 }
 
-static void set_field(Inputs *inputs, Field field, double value)
+static void set_field(Field field, double value)
 {
-    char *at = (char *)inputs + field.offset;
     if (field.type == 'r') {
-        *(double *)at = value;
+        *(double *)field.at = value;
     } else if (field.type == 'b') {
-        *(bool *)at = value != 0.0;
+        *(bool *)field.at = value != 0.0;
     } else {
-        *(int32_t *)at = (int32_t)value;
+        *(int32_t *)field.at = (int32_t)value;
     }
 }
 
-static double field_of(const Outputs *outputs, Field field)
+static double value_of(Field field)
 {
-    const char *at = (const char *)outputs + field.offset;
     if (field.type == 'r') {
-        return *(const double *)at;
+        return *(const double *)field.at;
     }
-    return field.type == 'b' ? (double)*(const bool *)at : (double)*(const int32_t *)at;
+    return field.type == 'b' ? (double)*(const bool *)field.at : (double)*(const int32_t *)field.at;
 }
 
 void axcomp_run(const Tables *tables, const double *pool, State *state, Inputs *inputs, Outputs *outputs, int64_t rows,
@@ -37,11 +35,11 @@ void axcomp_run(const Tables *tables, const double *pool, State *state, Inputs *
 {
     for (int64_t row = 0; row < rows; row++) {
         for (int32_t k = 0; k < given_count; k++) {
-            set_field(inputs, given_fields[k], *given++);
+            set_field(given_fields[k], *given++);
         }
         axcomp_cycle(tables, pool, state, inputs, outputs);
         for (int32_t k = 0; k < result_count; k++) {
-            *results++ = field_of(outputs, result_fields[k]);
+            *results++ = value_of(result_fields[k]);
         }
     }
 }

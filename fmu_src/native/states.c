@@ -1,25 +1,69 @@
 /* The functions of FMI 2.0 that save states of the FMU, here and in bytes, and go back to them. */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "fmi2.h"
 #include "instance.h"
 #include "layout.h"
 
-static const char STATE_MAGIC[8] = {'A', 'X', 'C', 'O', 'M', 'P', 'F', '1'};
+static const char STATE_MAGIC[8] = {'A', 'X', 'C', 'O', 'M', 'P', 'F', '2'};
 
-/* A state of the FMU: a copy of everything that changes. It refers to the lists by their identity, so that it outlives
- * the instance and fits another one; its bytes are the serialized state. */
+/* A state of the FMU: everything that changes, and behind it, at a multiple of 8 bytes from the begin, the arrays. It
+ * refers to the lists by their identity, so that it outlives the instance and fits another one; its bytes, in which
+ * pointers are 0, are the serialized state. Of the path in it there is only what is used. */
 typedef struct {
     char magic[8];
     uint32_t check;    /* CRC-32 of everything behind it, in serialized states */
     uint32_t layout;
-    uint32_t size;     /* of the memory */
+    uint32_t size;     /* of all of it */
     uint32_t lists;    /* identity of the lists in force */
     uint32_t waiting;  /* and of those that wait */
     uint32_t waits;    /* whether some do */
     Memory memory;
 } Saved;
+
+enum { CHECKED = offsetof(Saved, layout), PATH = offsetof(Saved, memory) + offsetof(Memory, controls.update_path) };
+
+static const Lists *waiting_lists(const Instance *instance)
+{
+#if defined(AXCOMP_EMBEDDED)
+    (void)instance;
+    return NULL;
+#else
+    return instance->waiting;
+#endif
+}
+
+/* Where the arrays begin in a state whose path has so many bytes with its end. */
+static size_t arrays_at(size_t path)
+{
+    size_t begin = PATH + path;
+    return (begin + sizeof(double) - 1u) / sizeof(double) * sizeof(double);
+}
+
+static size_t size_of(size_t path, const Shape *shape)
+{
+    return arrays_at(path) + axcomp_state_size(shape) + axcomp_inputs_size(shape) + axcomp_outputs_size(shape);
+}
+
+/* Bytes of the path in a state of so many bytes, with its end; 0: it has none. */
+static size_t path_size(const char *state, size_t size)
+{
+    for (size_t length = 0; length < PATH_LENGTH && PATH + length < size; length++) {
+        if (state[PATH + length] == 0) {
+            return length + 1u;
+        }
+    }
+    return 0;
+}
+
+/* Let records point to the arrays of a state. */
+static void place(char *arrays, const Shape *shape, State *state, Inputs *inputs, Outputs *outputs)
+{
+    axcomp_place_state(state, arrays, shape);
+    axcomp_place_inputs(inputs, arrays + axcomp_state_size(shape), shape);
+    axcomp_place_outputs(outputs, arrays + axcomp_state_size(shape) + axcomp_inputs_size(shape), shape);
+}
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2FMUstate *state)
 {
@@ -27,60 +71,82 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     if (instance == NULL) {
         return fmi2Error;
     }
-    if (*state == NULL) {
-        *state = calloc(1, sizeof(Saved));
-    }
+    const Memory *memory = &instance->memory;
+    const Lists *waiting = waiting_lists(instance);
+    Shape shape;
+    axcomp_shape_of(&instance->tables, &shape);
+    size_t path = strlen(memory->controls.update_path) + 1u;
+    size_t size = size_of(path, &shape);
     Saved *saved = (Saved *)*state;
+    if (saved != NULL && saved->size != size) {
+        axcomp_free_state(saved);
+        saved = NULL;
+    }
+    if (saved == NULL) {
+        saved = (Saved *)axcomp_new_state(size > sizeof *saved ? size : sizeof *saved);
+    }
+    *state = saved;
     if (saved == NULL) {
         return axcomp_say(instance, fmi2Error, "fmi2GetFMUstate: there is no memory for the state");
     }
     memcpy(saved->magic, STATE_MAGIC, sizeof saved->magic);
     saved->layout = AXCOMP_LAYOUT;
-    saved->size = (uint32_t)sizeof saved->memory;
+    saved->size = (uint32_t)size;
     saved->lists = instance->lists->identity;
-    saved->waits = instance->waiting != NULL;
-    saved->waiting = instance->waiting != NULL ? instance->waiting->identity : 0;
+    saved->waits = waiting != NULL;
+    saved->waiting = waiting != NULL ? waiting->identity : 0;
     saved->check = 0;
-    memcpy(&saved->memory, &instance->memory, sizeof saved->memory);
+    memcpy((char *)saved + offsetof(Saved, memory), memory, PATH - offsetof(Saved, memory) + path);
+    Memory *to = &saved->memory;
+    place((char *)saved + arrays_at(path), &shape, &to->state, &to->inputs, &to->outputs);
+    axcomp_copy_state(&to->state, &memory->state, &shape);
+    axcomp_copy_inputs(&to->inputs, &memory->inputs, &shape);
+    axcomp_copy_outputs(&to->outputs, &memory->outputs, &shape);
     return fmi2OK;
 }
 
 /* Whether this is a state that this version has made. */
 static bool is_state(const Saved *saved)
 {
-    return memcmp(saved->magic, STATE_MAGIC, sizeof saved->magic) == 0 && saved->layout == AXCOMP_LAYOUT
-        && saved->size == sizeof saved->memory;
+    return memcmp(saved->magic, STATE_MAGIC, sizeof saved->magic) == 0 && saved->layout == AXCOMP_LAYOUT;
 }
 
-static uint32_t check_of(const Saved *saved)
+/* The shape of the arrays of a state; false: it belongs to other lists. */
+static bool shape_of(const Instance *instance, const Saved *saved, Shape *shape)
 {
-    return axcomp_crc32(0, (const char *)saved + offsetof(Saved, layout), sizeof *saved - offsetof(Saved, layout));
-}
-
-/* Whether the instance has the lists of a state. */
-static bool has_lists(const Instance *instance, const Saved *saved)
-{
-    return axcomp_lists_with(instance, saved->lists) != NULL
-        && (saved->waits == 0 || axcomp_lists_with(instance, saved->waiting) != NULL);
+    const Lists *lists = axcomp_lists_with(instance, saved->lists);
+    if (lists == NULL || (saved->waits != 0 && axcomp_lists_with(instance, saved->waiting) == NULL)) {
+        return false;
+    }
+    axcomp_shape_of(&lists->tables, shape);
+    return true;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2FMUstate state)
 {
     Instance *instance = axcomp_given((Instance *)component, state, "fmi2SetFMUstate");
     const Saved *saved = (const Saved *)state;
+    Shape shape;
     if (instance == NULL) {
         return fmi2Error;
     }
     if (!is_state(saved)) {
         return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state is of another version");
     }
-    if (!has_lists(instance, saved)) {
+    if (!shape_of(instance, saved, &shape)) {
         return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
     }
-    memcpy(&instance->memory, &saved->memory, sizeof instance->memory);
-    instance->lists = axcomp_lists_with(instance, saved->lists);
-    instance->waiting = saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL;
-    instance->lists->tables.cycle_time = instance->memory.controls.cycle_time;
+    Memory *memory = &instance->memory;
+    const Memory *from = &saved->memory;
+    memcpy((char *)memory, from, PATH - offsetof(Saved, memory) + path_size((const char *)saved, saved->size));
+    axcomp_place_arrays(instance);
+    axcomp_copy_state(&memory->state, &from->state, &shape);
+    axcomp_copy_inputs(&memory->inputs, &from->inputs, &shape);
+    axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
+    axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
+#if !defined(AXCOMP_EMBEDDED)
+    instance->waiting = saved->waits != 0 ? (Lists *)axcomp_lists_with(instance, saved->waiting) : NULL;
+#endif
     return fmi2OK;
 }
 
@@ -90,7 +156,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2FreeFMUstate)(fmi2Component component, fmi2
         return fmi2Error;
     }
     if (state != NULL) {
-        free(*state);
+        axcomp_free_state(*state);
         *state = NULL;
     }
     return fmi2OK;
@@ -102,8 +168,14 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializedFMUstateSize)(fmi2Component compo
     if (axcomp_given(instance, size, "fmi2SerializedFMUstateSize") == NULL) {
         return fmi2Error;
     }
-    *size = sizeof(Saved);
+    *size = ((const Saved *)state)->size;
     return fmi2OK;
+}
+
+/* Put 0 in the place of a pointer. */
+static void forget(fmi2Byte *bytes, size_t at)
+{
+    memset(bytes + at, 0, sizeof(void *));
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
@@ -113,26 +185,26 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component,
     if (axcomp_given(instance, bytes, "fmi2SerializeFMUstate") == NULL) {
         return fmi2Error;
     }
-    if (size < sizeof(Saved)) {
+    const Saved *saved = (const Saved *)state;
+    if (size < saved->size) {
         return axcomp_say(instance, fmi2Error, "fmi2SerializeFMUstate: the state has more bytes");
     }
-    const Saved *saved = (const Saved *)state;
-    uint32_t check = check_of(saved);
-    memcpy(bytes, saved, sizeof *saved);
+    memcpy(bytes, saved, saved->size);
+    size_t memory = offsetof(Saved, memory);
+    forget(bytes, memory + offsetof(Memory, state.motion.axis));
+    forget(bytes, memory + offsetof(Memory, state.axis));
+    forget(bytes, memory + offsetof(Memory, state.volumetric));
+    forget(bytes, memory + offsetof(Memory, inputs.axis));
+    forget(bytes, memory + offsetof(Memory, inputs.volumetric));
+    forget(bytes, memory + offsetof(Memory, outputs.axis));
+    forget(bytes, memory + offsetof(Memory, outputs.volumetric));
+    size_t axes = (size_t)((const char *)saved->memory.state.axis - (const char *)saved);
+    for (size_t i = 0; i < (size_t)instance->shape.axes; i++) {
+        forget(bytes, axes + i * sizeof(AxisState) + offsetof(AxisState, compensation.friction.line));
+    }
+    uint32_t check = axcomp_crc32(0, bytes + CHECKED, saved->size - CHECKED);
     memcpy(bytes + offsetof(Saved, check), &check, sizeof check);
     return fmi2OK;
-}
-
-/* What is wrong with the bytes of a state, NULL: nothing. */
-static const char *complaint_about(const Instance *instance, const Saved *saved)
-{
-    if (!is_state(saved)) {
-        return "the state is of another version";
-    }
-    if (check_of(saved) != saved->check) {
-        return "the state has been altered";
-    }
-    return has_lists(instance, saved) ? NULL : "the state belongs to other lists";
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component component, const fmi2Byte bytes[], size_t size,
@@ -142,19 +214,34 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component componen
     if (axcomp_given(instance, state, "fmi2DeSerializeFMUstate") == NULL) {
         return fmi2Error;
     }
-    if (size != sizeof(Saved)) {
+    if (size <= PATH) {
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: the state is truncated, or none of this FMU");
     }
-    Saved *saved = (Saved *)malloc(sizeof *saved);
+    Saved *saved = (Saved *)axcomp_new_state(size > sizeof *saved ? size : sizeof *saved);
     if (saved == NULL) {
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: there is no memory for the state");
     }
-    memcpy(saved, bytes, sizeof *saved);
-    const char *complaint = complaint_about(instance, saved);
+    memcpy(saved, bytes, size);
+    Shape shape;
+    size_t path = path_size((const char *)saved, size);
+    const char *complaint = NULL;
+    if (!is_state(saved)) {
+        complaint = "the state is of another version";
+    } else if (saved->size != size) {
+        complaint = "the state is truncated, or none of this FMU";
+    } else if (axcomp_crc32(0, bytes + CHECKED, size - CHECKED) != saved->check) {
+        complaint = "the state has been altered";
+    } else if (!shape_of(instance, saved, &shape)) {
+        complaint = "the state belongs to other lists";
+    } else if (path == 0 || size != size_of(path, &shape)) {
+        complaint = "the state is truncated, or none of this FMU";
+    }
     if (complaint != NULL) {
-        free(saved);
+        axcomp_free_state(saved);
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: %s", complaint);
     }
+    Memory *memory = &saved->memory;
+    place((char *)saved + arrays_at(path), &shape, &memory->state, &memory->inputs, &memory->outputs);
     *state = saved;
     return fmi2OK;
 }

@@ -18,6 +18,7 @@
 
 #include "fmu_library.h"
 #include "image.h"
+#include "memory.h"
 #include "resource.h"
 
 enum { CYCLES = 2000, ROWS = 256, VARIABLES = 2048 };
@@ -132,7 +133,17 @@ static int bench_kernel(const char *image, int batches)
     if (data == NULL || axcomp_read_image(data, size, &lists) != NULL) {
         return 1;
     }
+    Shape shape;
+    axcomp_shape_of(&lists.tables, &shape);
+    void *remembered = calloc(1, axcomp_state_size(&shape)), *returned = calloc(1, axcomp_outputs_size(&shape));
+    char *given = (char *)calloc(ROWS, axcomp_inputs_size(&shape));
+    if (remembered == NULL || returned == NULL || given == NULL) {
+        return 1;
+    }
+    axcomp_place_state(&state, remembered, &shape);
+    axcomp_place_outputs(&outputs, returned, &shape);
     for (unsigned row = 0; row < ROWS; row++) {
+        axcomp_place_inputs(&rows[row], given + row * axcomp_inputs_size(&shape), &shape);
         /* The same numbers as for an FMU whose real inputs are these four of each axis. */
         for (int i = 0; i < lists.tables.axis_count; i++) {
             AxisInputs *axis = &rows[row].axis[i];
@@ -150,7 +161,8 @@ static int bench_kernel(const char *image, int batches)
         }
         printf("%.3f\n", (now() - begin) / CYCLES);
     }
-    free(lists.pool);
+    free(remembered), free(returned), free(given);
+    free((void *)lists.pool), free(lists.tables.axis), free(lists.tables.volumetric);
     free(data);
     return 0;
 }

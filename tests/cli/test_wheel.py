@@ -10,13 +10,17 @@ import sys
 import sysconfig
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from axcomp.demo.examples import EXPECTED, INPUT, read_csv
+from axcomp.model import models
 
 ROOT = Path(__file__).parents[2]
 
 
-def run(*command: str | Path, cwd: Path) -> str:
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+def run(*command: str | Path, cwd: Path, path: str = os.environ.get("PATH", "")) -> str:
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")} | {"PATH": path}
     result = subprocess.run(
         [str(part) for part in command], cwd=cwd, env=environment, capture_output=True, text=True, check=False
     )
@@ -61,3 +65,24 @@ def test_an_installed_wheel_builds_in_any_folder_what_the_checkout_builds(
     run(sys.executable, "build_fmu.py", cwd=checkout)
     for name in ("axcomp.fmu", "plant.fmu"):
         assert (tmp_path / name).read_bytes() == (checkout / name).read_bytes()
+
+
+@pytest.mark.slow
+def test_without_any_compiler_an_installed_wheel_builds_an_fmu_that_gives_the_expected_output(
+    installed: Path, tmp_path: Path
+) -> None:
+    model = models() / "three_axis"
+
+    def call(*command: str | Path) -> str:
+        return run(*command, cwd=tmp_path, path=str(tmp_path / "nothing"))
+
+    assert call(installed / "axcomp", "build").startswith("axcomp.fmu: ")
+    fmpy = (installed / "python", "-m", "fmpy")
+    assert "No problems found" in call(*fmpy, "validate", "axcomp.fmu")
+    call(*fmpy, "simulate", "axcomp.fmu", "--input-file", model / INPUT, "--output-file", "output.csv")
+    output = tmp_path / "output.csv"
+    output.write_text(output.read_text().replace("True", "1").replace("False", "0"))
+    simulated, expected = read_csv(output), read_csv(model / EXPECTED)
+    assert set(simulated) == set(expected)
+    for column, values in expected.items():
+        assert np.allclose(simulated[column], values, rtol=0.0, atol=1e-8), column

@@ -13,7 +13,6 @@ import pytest
 
 from axcomp.kernel import Inputs, Outputs, State, Tables, fields_of, zero
 from axcomp.native import ctypes_of, from_c, to_c
-from axcomp.native.places import _layout_of
 
 SOURCES = Path(__file__).parents[2] / "fmu_src" / "native"
 
@@ -78,20 +77,3 @@ def test_every_field_of_the_kernel_lies_where_the_compiler_puts_it(record: type,
     struct = ctypes_of(record)
     expected = [getattr(struct, field).offset for field in fields] + [ctypes.sizeof(struct)]
     assert [int(number) for number in found] == expected
-
-
-@dataclass(slots=True)
-class Outermost:
-    """Parts two records deep."""
-
-    wholes: Annotated[list[Whole], 2]
-
-
-def test_a_layout_tells_of_records_at_any_depth() -> None:
-    part = ctypes_of(Part)
-    lines = _layout_of(Outermost)
-    for name, _ in part._fields_:
-        place = getattr(part, name)
-        assert (
-            sum(line.startswith(f"{name} ") and line.endswith(f" {place.offset} {place.size}") for line in lines) == 2
-        )

@@ -50,6 +50,7 @@ def test_they_compile_without_a_warning_and_need_no_file(native_fmu: Path, compi
     library.unlink()
     (sources,) = fmpy.read_model_description(folder).buildConfigurations[0].sourceFileSets
     options = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o", str(library)]
+    options.append("-DFMI2_OVERRIDE_FUNCTION_PREFIX")
     run = subprocess.run(
         [command[0], *options, *command[1:], *sources.sourceFiles, "-lm"],
         cwd=folder / "sources",

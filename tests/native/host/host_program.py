@@ -16,8 +16,7 @@ from typing import NamedTuple
 
 import pytest
 
-from axcomp.fmu import SOURCES as LIBRARY_SOURCES
-from axcomp.native import FLAGS
+from axcomp.native import FLAGS, LIBRARY_SOURCES
 
 ROOT = Path(__file__).parents[3]
 NATIVE = ROOT / "fmu_src" / "native"

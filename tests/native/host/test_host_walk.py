@@ -396,9 +396,9 @@ class Walk:
         if it.phase != "none" and self.states[state] is not None:
             self.say(f"serialize {slot} {state + 8} 1", ERROR)
             self.say(f"serialize {slot} {state + 8} 0", OK)
-            self.say(f"deserialize {slot} {state + 8} {self.source.randrange(1, 5000)} -1", ERROR)
+            self.say(f"deserialize {slot} {state + 8} {self.source.randrange(1, 1500)} -1", ERROR)
             self.say(f"deserialize {slot} {state + 8} 0 {self.source.randrange(28)}", ERROR)
-            self.say(f"deserialize {slot} {state + 8} 0 {self.source.randrange(32, 60_000)}", ERROR)
+            self.say(f"deserialize {slot} {state + 8} 0 {self.source.randrange(32, 1500)}", ERROR)
             self.say(f"deserialize {slot} {state + 8} 1000000 -1", ERROR)
 
 

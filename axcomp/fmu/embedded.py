@@ -1,0 +1,82 @@
+"""The C sources in a native FMU: the kernel, and the tables of the machine as initialized records.
+
+They need no file, no log, no heap and nothing of the operating system, and have no name outside that another FMU's
+sources could have: several can be linked into one program (FMI 2.0.5, section 2.1.1).
+"""
+
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+from ..kernel import Tables
+from ..native import HEADERS, SOURCES, source_bytes, tables_source
+from .content import PACKAGE, Built
+
+TABLES_SOURCE = "tables.c"
+_OWN_NAME = re.compile(rb"\baxcomp_(?=\w)")
+
+
+def embedded_sources(content: Built, guid: str) -> dict[str, bytes]:
+    """Return the files in ``sources``, and what TwinCAT must know to compile them."""
+    name = content.description.name
+    texts = {
+        TABLES_SOURCE: tables_source(content.compiled, guid).encode(),
+        "config.h": _configuration(name, content.compiled.tables).encode(),
+        **{source: source_bytes(source) for source in (*SOURCES, *HEADERS)},
+    }
+    prefix = b"axcomp_" if name == PACKAGE.name else f"{name}_axcomp_".encode()
+    files = {f"sources/{file}": _OWN_NAME.sub(prefix, text) for file, text in texts.items()}
+    files["sources/buildDescription.xml"] = _build_description(name)
+    files["documentation/CustomFMU.xml"] = _for_twincat(content.description.tool)
+    return files
+
+
+def _configuration(name: str, tables: Tables) -> str:
+    lines = sum(axis.compensation.friction.delay + 1 for axis in tables.axis[: tables.axis_count])
+    return f"""\
+/* The tables are among these sources (tables.c): no file is read, nothing is allocated, nothing is logged. */
+#ifndef AXCOMP_CONFIG_H
+#define AXCOMP_CONFIG_H
+
+/* Of each function's name. Whoever compiles a shared library defines FMI2_OVERRIDE_FUNCTION_PREFIX: without it. */
+#ifndef FMI2_FUNCTION_PREFIX
+#define FMI2_FUNCTION_PREFIX {name}_
+#endif
+
+#define AXCOMP_EMBEDDED
+#define AXCOMP_AXES {tables.axis_count}
+#define AXCOMP_VOLUMETRICS {tables.volumetrics}
+#define AXCOMP_LINES {lines} /* numbers in the delay lines of all axes */
+
+#endif
+"""
+
+
+def _build_description(name: str) -> bytes:
+    """Return how the sources are built into a shared library, as FMI 3.0 describes it."""
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = SubElement(root, "BuildConfiguration", modelIdentifier=name, description="shared library")
+    files = SubElement(configuration, "SourceFileSet", language="C99")
+    for source in (*SOURCES, TABLES_SOURCE):
+        SubElement(files, "SourceFile", name=source)
+    SubElement(files, "PreprocessorDefinition", name="FMI2_OVERRIDE_FUNCTION_PREFIX")
+    SubElement(configuration, "Library", name="m", external="true", description="of the compiler")
+    return _xml(root)
+
+
+def _for_twincat(tool: str) -> bytes:
+    """Return what TE1420 must know of the tool that made the FMU: nothing out of the ordinary."""
+    root = Element("CustomConfigurations")
+    configuration = SubElement(root, "FmuConfiguration")
+    SubElement(configuration, "ToolName").text = tool
+    SubElement(configuration, "AdditionalInclude").text = "$(ProjectDir);$(ProjectDir)sources;"
+    for empty in ("PreprocessorDefinitions", "ExcludedFromBuild", "CodeReplacements"):
+        SubElement(configuration, empty)
+    return _xml(root)
+
+
+def _xml(root: Element) -> bytes:
+    ElementTree.indent(root)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'.encode()

@@ -1,0 +1,37 @@
+"""The C sources of the library, which is the same for every machine, and what tells whether they have changed."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from ..model import fmu_sources
+
+_PARTS = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "storage", "values")
+SOURCES = tuple(f"{part}.c" for part in _PARTS)
+HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h")
+"""Of an FMU, in ``fmu_src/native``; its tables are among its sources, and ``config.h`` is another one there."""
+
+_LIBRARY_PARTS = ("image", "lists", "records", "reload", "resource")
+LIBRARY_SOURCES = (*SOURCES, *(f"{part}.c" for part in _LIBRARY_PARTS), "run.c")
+LIBRARY_HEADERS = (*HEADERS, "config.h", "lists.h", "records.h", "resource.h", "run.h")
+"""Of the libraries, which read images; the Engine runs its trajectories in them too."""
+
+
+def source_path(name: str) -> Path:
+    """Return the path of a source or a header."""
+    return fmu_sources() / "native" / name
+
+
+def source_bytes(name: str) -> bytes:
+    """Return a source with the same line ends on every system."""
+    return source_path(name).read_bytes().replace(b"\r\n", b"\n")
+
+
+def sources_checksum() -> str:
+    """Return a SHA-256 of all that the libraries are made of."""
+    digest = hashlib.sha256()
+    for name in (*LIBRARY_SOURCES, *LIBRARY_HEADERS):
+        data = source_bytes(name)
+        digest.update(f"{name}\0{len(data)}\0".encode() + data)
+    return digest.hexdigest()

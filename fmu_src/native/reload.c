@@ -1,0 +1,205 @@
+/* New lists while the machine runs: read when the host asks for them, taken by the next step. */
+#include "instance.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path)
+{
+    const char *complaint = "there is no memory for it";
+    Lists *lists = (Lists *)calloc(1, sizeof *lists);
+    size_t size = 0;
+    unsigned char *data = axcomp_read_file(path, &size);
+    if (data == NULL) {
+        axcomp_say(instance, status, "%s: %s cannot be read", call, path);
+        axcomp_free_lists(lists);
+        return NULL;
+    }
+    if (lists != NULL) {
+        complaint = axcomp_read_image(data, size, lists);
+    }
+    free(data);
+    if (complaint != NULL) {
+        axcomp_say(instance, status, "%s: %s is refused: %s", call, path, complaint);
+        axcomp_free_lists(lists);
+        return NULL;
+    }
+    return lists;
+}
+
+/* Let an axis of new lists keep the tables that are in force. */
+static bool keep_axis(Lists *lists, const Lists *now, int i)
+{
+    const AxisTable *old = &now->tables.axis[i];
+    size_t count = (size_t)lists->numbers + (size_t)old->numbers;
+    double *pool = (double *)realloc((void *)lists->pool, (count + 1u) * sizeof *pool);
+    if (pool == NULL) {
+        return false;
+    }
+    memcpy(pool + lists->numbers, now->pool + old->first, (size_t)old->numbers * sizeof *pool);
+    lists->pool = pool;
+    lists->tables.axis[i] = *old;
+    axcomp_move_axis_table(&lists->tables.axis[i], lists->numbers);
+    lists->numbers = (int32_t)count;
+    return true;
+}
+
+/* Tell whether new lists have no volumetric compensation that was not declared at the start. */
+static bool volumetrics_fit(const Lists *lists, const Lists *declared)
+{
+    for (int k = 0; k < lists->tables.volumetrics; k++) {
+        if (lists->tables.volumetric[k].configured && !declared->tables.volumetric[k].configured) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether new lists can be taken at all; those axes that cannot take theirs get the ones in force. */
+static bool fit_update(const Instance *instance, Lists *lists)
+{
+    const Lists *now = instance->lists;
+    if (lists->tables.axis_count != now->tables.axis_count || !volumetrics_fit(lists, instance->first)) {
+        axcomp_say(instance, fmi2Warning,
+                   "reload: the new lists have other axes or compensations than the ones in force");
+        return false;
+    }
+    if (lists->found > 0) {
+        axcomp_say(instance, fmi2Warning, "reload: the new lists are refused: errors in them: %u, the first: %s",
+                   (unsigned)lists->found, lists->said);
+        return false;
+    }
+    uint32_t mixed = axcomp_crc32(lists->identity, &now->identity, sizeof now->identity);
+    for (int i = 0; i < now->tables.axis_count; i++) {
+        const AxisTable *old = &now->tables.axis[i];
+        lists->errors[i] = axcomp_update_error(old, &lists->tables.axis[i]);
+        if (lists->errors[i] == ERROR_UPDATE) {
+            axcomp_say(instance, fmi2Warning, "reload: the new lists do not fit axis %d", old->number);
+            return false;
+        }
+        if (lists->errors[i] != 0) {
+            axcomp_say(instance, fmi2Warning, "reload: axis %d keeps its old lists: error %d", old->number,
+                       lists->errors[i]);
+            lists->identity = mixed;
+            if (!keep_axis(lists, now, i)) {
+                axcomp_say(instance, fmi2Warning, "reload: there is no memory for the new lists");
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Give new lists the memory that an update needs: tables for as many volumetric compensations as there are now, and delay
+ * lines for their delays. Returns whether there is so much. */
+static bool make_room(Instance *instance, Lists *lists)
+{
+    size_t before = (size_t)lists->tables.volumetrics, after = (size_t)instance->tables.volumetrics;
+    if (before < after) {
+        void *larger = realloc(lists->tables.volumetric, after * sizeof(VolumetricTable));
+        if (larger == NULL) {
+            return false;
+        }
+        lists->tables.volumetric = (VolumetricTable *)larger;
+        memset(lists->tables.volumetric + before, 0, (after - before) * sizeof(VolumetricTable));
+    }
+    Shape needed, old = instance->shape;
+    axcomp_shape_of(&lists->tables, &needed);
+    for (int32_t i = 0; i < old.axes; i++) {
+        if (instance->shape.lines[i] < needed.lines[i]) {
+            instance->shape.lines[i] = needed.lines[i];
+        }
+    }
+    if (memcmp(&old, &instance->shape, sizeof old) == 0) {
+        return true;
+    }
+    void *block = instance->block;
+    Memory memory = instance->memory;
+    if (!axcomp_give_arrays(instance)) {
+        instance->block = block;
+        instance->shape = old;
+        return false;
+    }
+    axcomp_copy_state(&instance->memory.state, &memory.state, &old);
+    axcomp_copy_inputs(&instance->memory.inputs, &memory.inputs, &old);
+    axcomp_copy_outputs(&instance->memory.outputs, &memory.outputs, &old);
+    free(block);
+    return true;
+}
+
+static Lists *own_lists_with(const Instance *instance, uint32_t identity)
+{
+    Lists *lists = instance->own;
+    while (lists != NULL && lists->identity != identity) {
+        lists = lists->next;
+    }
+    return lists;
+}
+
+const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
+{
+    const Lists *lists = own_lists_with(instance, identity);
+    return lists == NULL && instance->first->identity == identity ? instance->first : lists;
+}
+
+void axcomp_watch_reload(Instance *instance, bool path_set)
+{
+    Memory *memory = &instance->memory;
+    if (!memory->controls.reload) {
+        instance->waiting = NULL;
+        memory->refused = false;
+        return;
+    }
+    bool is_read = instance->waiting != NULL || memory->refused;
+    if (memory->reload_seen || (is_read && !path_set)) {
+        return;
+    }
+    char path[PATH_LENGTH];
+    axcomp_path_of(memory->controls.update_path, NULL, path);
+    Lists *lists = axcomp_read_lists(instance, fmi2Warning, "reload", path[0] != 0 ? path : instance->own_path);
+    if (lists != NULL && !fit_update(instance, lists)) {
+        axcomp_free_lists(lists);
+        lists = NULL;
+    }
+    if (lists != NULL) {
+        /* The same again needs no memory: an instance may be updated as often as one likes. */
+        Lists *known = own_lists_with(instance, lists->identity);
+        if (known != NULL) {
+            axcomp_free_lists(lists);
+            lists = known;
+        } else if (make_room(instance, lists)) {
+            lists->next = instance->own;
+            instance->own = lists;
+        } else {
+            axcomp_say(instance, fmi2Warning, "reload: there is no memory for the new lists");
+            axcomp_free_lists(lists);
+            lists = NULL;
+        }
+    }
+    instance->waiting = lists;
+    memory->refused = lists == NULL;
+}
+
+void axcomp_take_update(Instance *instance)
+{
+    Memory *memory = &instance->memory;
+    const Lists *before = instance->lists;
+    Lists *after = instance->waiting;
+    if (memory->refused || after != NULL) {
+        for (int i = 0; i < instance->tables.axis_count; i++) {
+            int32_t error = memory->refused ? ERROR_UPDATE : after->errors[i];
+            memory->state.axis[i].error = memory->outputs.axis[i].error = error;
+            if (error == 0) {
+                axcomp_adopt_axis(&instance->tables.axis[i], before->pool, &after->tables.axis[i], after->pool,
+                                  &memory->state, &memory->inputs.axis[i], i);
+            }
+        }
+    }
+    if (after != NULL) {
+        axcomp_adopt_volumetrics(&instance->tables, &after->tables, &memory->state, &memory->outputs);
+        axcomp_use_lists(instance, after);
+    }
+    instance->waiting = NULL;
+    memory->refused = false;
+    memory->reload_seen = memory->controls.reload;
+}
