@@ -11,7 +11,17 @@ from typing import Annotated
 
 from .interpolation import fold, nearest
 from .record import Vec, zeros
-from .volumetric_records import ERRORS, INTERPOLATE_GRID, INTERPOLATE_SCATTER, LETTERS, ErrorBlock, VolumetricTable
+from .volumetric_records import (
+    BOXES,
+    ERRORS,
+    IN_BOX,
+    INTERPOLATE_GRID,
+    INTERPOLATE_SCATTER,
+    LETTERS,
+    TOGETHER,
+    ErrorBlock,
+    VolumetricTable,
+)
 
 AT_NODE = 1e-30  # squared distance below which a position is a node
 BESIDE = 1.0  # mm², squared distance from the section of a path that is followed, up to which it is never left
@@ -118,26 +128,55 @@ def add_node(pool: Vec, block: ErrorBlock, at: int, weight: float, errors: Annot
 def add_from_scatter(
     pool: Vec, block: ErrorBlock, x: Annotated[list[float], LETTERS], errors: Annotated[list[float], ERRORS]
 ) -> None:
-    """Add the mean of all nodes, weighted by 1/distance²; at a node its own values."""
+    """Add the mean of all nodes, weighted by 1/distance²; at a node its own values.
+
+    One pass, four nodes at a time: their weighted values are summed before they are added to the sum of those before.
+    """
     total = 0.0
-    for n in range(block.nodes):
-        square = square_distance(pool, block, n, x)
-        if square <= AT_NODE:
-            add_node(pool, block, block.values + n * block.errors, 1.0, errors)
-            return
-        total += 1.0 / square
-    for n in range(block.nodes):
-        weight = 1.0 / square_distance(pool, block, n, x) / total
-        add_node(pool, block, block.values + n * block.errors, weight, errors)
+    sums = zeros(ERRORS)
+    square = zeros(TOGETHER)
+    weight = zeros(TOGETHER)
+    last = block.nodes - 1
+    for group in range(last // TOGETHER + 1):
+        n = group * TOGETHER
+        square_distances(pool, block, n, x, square)
+        for k in range(TOGETHER):
+            if square[k] <= AT_NODE:
+                add_node(pool, block, block.values + min(n + k, last) * block.errors, 1.0, errors)
+                return
+        for k in range(TOGETHER):
+            weight[k] = 1.0 / square[k]
+        for k in range(last + 1 - n, TOGETHER):
+            weight[k] = 0.0
+        w0 = weight[0]
+        w1 = weight[1]
+        w2 = weight[2]
+        w3 = weight[3]
+        total += w0 + w1 + w2 + w3
+        at0 = block.values + n * block.errors
+        at1 = block.values + min(n + 1, last) * block.errors
+        at2 = block.values + min(n + 2, last) * block.errors
+        at3 = block.values + min(n + 3, last) * block.errors
+        for p in range(block.errors):
+            sums[p] += w0 * pool[at0 + p] + w1 * pool[at1 + p] + w2 * pool[at2 + p] + w3 * pool[at3 + p]
+    for p in range(block.errors):
+        errors[int(pool[block.error + p])] += sums[p] / total
 
 
-def square_distance(pool: Vec, block: ErrorBlock, n: int, x: Annotated[list[float], LETTERS]) -> float:
-    """Return the squared distance of a position from node n, round the circle where there is one."""
-    square = 0.0
+def square_distances(
+    pool: Vec, block: ErrorBlock, n: int, x: Annotated[list[float], LETTERS], square: Annotated[list[float], TOGETHER]
+) -> None:
+    """Put the squared distances of a position from node n and those behind it, round the circle where there is one."""
+    at = block.knots[0] + n * block.arguments
+    for k in range(TOGETHER):
+        square[k] = 0.0
     for d in range(block.arguments):
-        difference = nearest(x[d] - pool[block.knots[0] + n * block.arguments + d], block.period[d])
-        square += difference * difference
-    return square
+        for k in range(TOGETHER):
+            difference = x[d] - pool[at + k]
+            if block.period[d] > 0.0:
+                difference = nearest(difference, block.period[d])
+            square[k] += difference * difference
+        at += TOGETHER
 
 
 def add_from_path(
@@ -152,31 +191,68 @@ def add_from_path(
     Of sections as near the first one counts; one that is followed, and its neighbours, until another is much nearer.
     """
     section = 0
-    share = 0.0
     shortest = -1.0
-    own = 0
-    own_share = 0.0
-    own_shortest = -1.0
-    for n in range(block.nodes - 1):
-        s = share_along(pool, block, n, x)
-        distance = square_from_section(pool, block, n, s, x)
+    for n in range(max(followed - 2, 0), min(followed + 1, block.nodes - 1) if followed > 0 else 0):
+        distance = square_from_section(pool, block, n, share_along(pool, block, n, x), x)
         if shortest < 0.0 or distance < shortest:
             shortest = distance
             section = n
-            share = s
-        if followed > 0 and abs(n + 1 - followed) <= 1 and (own_shortest < 0.0 or distance < own_shortest):
-            own_shortest = distance
-            own = n
-            own_share = s
-    at_end = (own == 0 and own_share == 0.0) or (own == block.nodes - 2 and own_share == 1.0)
-    if own_shortest >= 0.0 and not at_end and (own_shortest < BESIDE or own_shortest < 4.0 * shortest):
-        section = own
-        share = own_share
+    share = share_along(pool, block, section, x) if block.nodes > 1 else 0.0
+    at_end = (section == 0 and share == 0.0) or (section == block.nodes - 2 and share == 1.0)
+    if block.nodes > 1 and (shortest < 0.0 or at_end or shortest >= BESIDE):
+        other = nearest_section(pool, block, x, section)
+        share_there = share_along(pool, block, other, x)
+        if shortest < 0.0 or at_end or shortest >= 4.0 * square_from_section(pool, block, other, share_there, x):
+            section = other
+            share = share_there
     at = block.values + section * block.errors
     add_node(pool, block, at, 1.0 - share, errors)
     if share > 0.0:
         add_node(pool, block, at + block.errors, share, errors)
     return section + 1
+
+
+def nearest_section(pool: Vec, block: ErrorBlock, x: Annotated[list[float], LETTERS], near: int) -> int:
+    """Return the section that is nearest, the first of those as near; ``near``: one to begin with.
+
+    Boxes that are farther away than the nearest section so far are left out: at most 2 · points[0] boxes and all
+    sections are looked at, mostly a few.
+    """
+    found = near
+    shortest = square_from_section(pool, block, near, share_along(pool, block, near, x), x)
+    waiting = zeros(BOXES)
+    waiting[0] = 1.0
+    count = 1
+    while count > 0:
+        count -= 1
+        box = int(waiting[count])
+        if square_from_box(pool, block, box, x) > shortest:
+            continue
+        if box < block.points[0]:
+            # The nearer one is looked into first.
+            first = 1 if square_from_box(pool, block, 2 * box, x) > square_from_box(pool, block, 2 * box + 1, x) else 0
+            waiting[count] = float(2 * box + 1 - first)
+            waiting[count + 1] = float(2 * box + first)
+            count += 2
+        else:
+            begin = (box - block.points[0]) * IN_BOX
+            for n in range(begin, min(begin + IN_BOX, block.nodes - 1)):
+                distance = square_from_section(pool, block, n, share_along(pool, block, n, x), x)
+                if distance < shortest or (distance == shortest and n < found):
+                    shortest = distance
+                    found = n
+    return found
+
+
+def square_from_box(pool: Vec, block: ErrorBlock, box: int, x: Annotated[list[float], LETTERS]) -> float:
+    """Return the squared distance from a box, 0 within."""
+    at = block.steps[0] + 2 * block.arguments * box
+    distance = 0.0
+    for d in range(block.arguments):
+        below = max(pool[at + 2 * d] - x[d], 0.0)
+        outside = max(x[d] - pool[at + 2 * d + 1], below)
+        distance += outside * outside
+    return distance
 
 
 def share_along(pool: Vec, block: ErrorBlock, n: int, x: Annotated[list[float], LETTERS]) -> float:

@@ -6,11 +6,14 @@ from .interpolation import ascending, range_fits
 from .record import Vec
 from .volumetric_records import (
     ERRORS,
+    IN_BOX,
     INTERPOLATE_GRID,
     INTERPOLATE_PATH,
+    INTERPOLATE_SCATTER,
     LETTERS,
     LINEAR,
     MEMBERS,
+    TOGETHER,
     ErrorBlock,
     VolumetricTable,
 )
@@ -82,9 +85,24 @@ def block_fits(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
             return False
     if block.interpolation == INTERPOLATE_GRID:
         return knots_fit(pool, block, numbers)
-    return block.nodes <= numbers // block.arguments and range_fits(
-        block.knots[0], block.nodes * block.arguments, numbers
-    )
+    nodes = block.nodes
+    if block.interpolation == INTERPOLATE_SCATTER:
+        nodes = (nodes + TOGETHER - 1) // TOGETHER * TOGETHER
+    if nodes > numbers // block.arguments:
+        return False
+    if not range_fits(block.knots[0], nodes * block.arguments, numbers):
+        return False
+    return block.interpolation != INTERPOLATE_PATH or boxes_fit(block, numbers)
+
+
+def boxes_fit(block: ErrorBlock, numbers: int) -> bool:
+    """Tell whether the boxes around the sections of a path lie in the pool, and hold all sections."""
+    leaves = 1
+    while leaves < (block.nodes + IN_BOX - 2) // IN_BOX:
+        leaves += leaves
+    if block.points[0] != leaves or leaves > numbers // (4 * block.arguments):
+        return False
+    return range_fits(block.steps[0], 4 * block.arguments * leaves, numbers)
 
 
 def knots_fit(pool: Vec, block: ErrorBlock, numbers: int) -> bool:

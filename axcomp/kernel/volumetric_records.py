@@ -28,6 +28,9 @@ EC = 11
 INTERPOLATE_GRID = 0
 INTERPOLATE_SCATTER = 1
 INTERPOLATE_PATH = 2
+TOGETHER = 4  # scattered nodes whose coordinates stand together
+IN_BOX = 8  # sections of a path that share a box
+BOXES = 64  # that wait at most while the nearest section is looked for
 
 ERROR_LIMIT_UNDEFINED = 911  # AXC-911: no s_limit where one is needed
 ERROR_LIMIT_EXCEEDED = 912  # AXC-912: a correction is larger than s_limit
@@ -41,6 +44,11 @@ class ErrorBlock:
 
     Value p of node n is at ``values + n * errors + p`` in the pool, the number of error p at ``error + p``. On a grid
     the last argument changes fastest. Otherwise coordinate d of node n is at ``knots[0] + n * arguments + d``.
+    Of scattered nodes coordinate d of the ``TOGETHER`` from node n on is at ``knots[0] + n * arguments + d * TOGETHER``
+    and behind; the last node is repeated until these are full.
+    A path has boxes around its sections: box 1 around all, boxes 2k and 2k + 1 around the halves of what is in box k,
+    the last ``points[0]`` of them, a power of 2, around ``IN_BOX`` sections each; the least coordinate d of box k is at
+    ``steps[0] + 2 * (k * arguments + d)``, the greatest behind.
     """
 
     interpolation: int  # one of the INTERPOLATE_ constants

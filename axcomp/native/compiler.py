@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from .universal import universal
 
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-g0", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
+FLAGS = ("-std=c99", "-O3", "-ffp-contract=off", "-g0", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
 """No fast-math and no fused multiplications: every compiler then gives the same bits."""
 
 SSE = ("-msse2", "-mfpmath=sse")

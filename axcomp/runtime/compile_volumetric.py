@@ -6,7 +6,17 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from ..kernel import INTERPOLATE_GRID, INTERPOLATE_PATH, INTERPOLATE_SCATTER, ErrorBlock, Tables, Vec, VolumetricTable
+from ..kernel import (
+    IN_BOX,
+    INTERPOLATE_GRID,
+    INTERPOLATE_PATH,
+    INTERPOLATE_SCATTER,
+    TOGETHER,
+    ErrorBlock,
+    Tables,
+    Vec,
+    VolumetricTable,
+)
 from ..kinds import CompileError, append
 from ..model import (
     COMPENSATIONS_MAX,
@@ -28,6 +38,7 @@ from ..model import (
 )
 
 CYCLES_MAX = 2**31 - 1  # of a switch; at 1 ms more than three weeks
+ROUNDING = 1e-6  # mm, more than rounding makes of any length
 SHORTEST = 1e-9  # mm or °; along less than this, searching is left to the bisection
 
 _INTERPOLATIONS = {
@@ -65,6 +76,22 @@ def _knots_before(knots: Sequence[float], steps_per_unit: float) -> list[float]:
         before += [max(i - 1.0, 0.0)] * (step + 1 - len(before))
     before += [len(knots) - 1.0] * (len(knots) + 1 - len(before))
     return before
+
+
+def _boxes_of(nodes: Sequence[Sequence[float]]) -> tuple[int, list[float]]:
+    """Return how many boxes around ``IN_BOX`` sections a path has, and all its boxes as the kernel wants them."""
+    pieces = [nodes[n : n + IN_BOX + 1] for n in range(0, max(len(nodes) - 1, 1), IN_BOX)]
+    leaves = 1 << (len(pieces) - 1).bit_length()
+    pieces += pieces[-1:] * (leaves - len(pieces))
+    # A little wider than the sections: rounding never puts one outside its box.
+    level = [[(min(x) - ROUNDING, max(x) + ROUNDING) for x in zip(*piece, strict=True)] for piece in pieces]
+    levels = [level]
+    while len(level) > 1:
+        pairs = zip(level[::2], level[1::2], strict=True)
+        level = [[(min(a[0], b[0]), max(a[1], b[1])) for a, b in zip(*pair, strict=True)] for pair in pairs]
+        levels.append(level)
+    unused = [0.0] * (2 * len(nodes[0]))
+    return leaves, unused + [x for level in reversed(levels) for box in level for side in box for x in side]
 
 
 def _steepest(error: ErrorTable, d: int) -> float:
@@ -227,7 +254,13 @@ class _Compiler:
                     block.steps_per_unit[d] = (len(knots) - 1) / length if length > SHORTEST else 0.0
                     block.steps[d] = self._append(_knots_before(knots, block.steps_per_unit[d]))
         else:
-            block.knots[0] = self._append([x for node in nodes for x in node])
+            together = TOGETHER if block.interpolation == INTERPOLATE_SCATTER else 1
+            filled = [*nodes, *nodes[-1:] * (-len(nodes) % together)]
+            groups = (filled[n : n + together] for n in range(0, len(filled), together))
+            block.knots[0] = self._append([x for group in groups for same in zip(*group, strict=True) for x in same])
+            if block.interpolation == INTERPOLATE_PATH:
+                block.points[0], boxes = _boxes_of(nodes)
+                block.steps[0] = self._append(boxes)
         block.values = self._append([error.values[n] for n in order for error in errors])
 
     def _steepness(self) -> None:

@@ -18,7 +18,6 @@ static inline double double_min(double a, double b) { return b < a ? b : a; }
 static inline double double_max(double a, double b) { return b > a ? b : a; }
 static inline int32_t int_min(int32_t a, int32_t b) { return b < a ? b : a; }
 static inline int32_t int_max(int32_t a, int32_t b) { return b > a ? b : a; }
-static inline int32_t int_abs(int32_t a) { return a < 0 ? -a : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
@@ -318,26 +317,40 @@ static bool backlash_fits(const BacklashTable *table)
 
 /* ============================== interpolation ===============================
  *
- * Piecewise linear curves: the last interval and its neighbours first, then bisection: many points cost what few do.
+ * Piecewise linear curves: the last interval, its neighbours, then a guess from the way gone: many points cost few.
  */
 
-/* Return the interval of x, which is not the `last` one: its neighbours first, then bisection. */
+/* Return the interval of x, which is not the `last` one: a neighbour, or near a guess by the mean interval.
+ *
+ * From a guess that is wrong the search goes out in steps that double, then bisects the last of them: at most
+ * 2 · log2(points) comparisons.
+ */
 static int32_t search_interval(const double *pool, int32_t first, int32_t points, double x, int32_t last)
 {
-    int32_t low = 0;
-    int32_t high = points - 1;
-    if (x < pool[first + last]) {
-        high = last;
-        if (pool[first + last - 1] <= x) {
-            return last - 1;
+    int32_t end = points - 1;
+    if (x >= pool[first + last]) {
+        if (last + 2 >= points || x < pool[first + last + 2]) {
+            return int_min(last + 1, end - 1);
         }
-    } else if (last + 2 < points) {
-        low = last + 1;
-        if (x < pool[first + last + 2]) {
-            return last + 1;
+    } else if (x >= pool[first + last - 1]) {
+        return last - 1;
+    }
+    double intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end;
+    int32_t low = int_min(int_max(last + (int32_t)intervals, 0), end - 1);
+    int32_t high = low + 1;
+    int32_t step = 1;
+    if (x < pool[first + low]) {
+        while (low > 0 && x < pool[first + low]) {
+            high = low;
+            low = int_max(high - step, 0);
+            step += step;
         }
     } else {
-        return last;
+        while (high < end && x >= pool[first + high]) {
+            low = high;
+            high = int_min(low + step, end);
+            step += step;
+        }
     }
     while (high - low > 1) {
         int32_t middle = (low + high) >> 1;
@@ -409,7 +422,7 @@ static bool range_fits(int32_t first, int32_t count, int32_t numbers)
     return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
 }
 
-/* Tell whether so many numbers lie in the pool and ascend strictly. */
+/* Tell whether so many numbers lie in the pool, ascend strictly and span a finite length. */
 static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers)
 {
     if (!range_fits(first, points, numbers)) {
@@ -420,7 +433,8 @@ static bool ascending(const double *pool, int32_t first, int32_t points, int32_t
             return false;
         }
     }
-    return true;
+    double length = pool[first + points - 1] - pool[first];
+    return length - length == 0.0;  /* finite */
 }
 
 /* Tell whether a curve lies in the pool and its abscissae ascend. */
@@ -1487,34 +1501,82 @@ static void add_from_grid(const double *pool, const ErrorBlock *block, const dou
     }
 }
 
-/* Return the squared distance of a position from node n, round the circle where there is one. */
-static double square_distance(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS])
+/* Put the squared distances of a position from node n and those behind it, round the circle where there is one. */
+static void square_distances(const double *pool, const ErrorBlock *block, int32_t n, const double x[LETTERS],
+        double square[TOGETHER])
 {
-    double square = 0.0;
-    for (int32_t d = 0; d < block->arguments; d++) {
-        double difference = nearest(x[d] - pool[block->knots[0] + n * block->arguments + d], block->period[d]);
-        square += difference * difference;
+    int32_t at = block->knots[0] + n * block->arguments;
+    for (int32_t k = 0; k < TOGETHER; k++) {
+        square[k] = 0.0;
     }
-    return square;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        for (int32_t k = 0; k < TOGETHER; k++) {
+            double difference = x[d] - pool[at + k];
+            if (block->period[d] > 0.0) {
+                difference = nearest(difference, block->period[d]);
+            }
+            square[k] += difference * difference;
+        }
+        at += TOGETHER;
+    }
 }
 
-/* Add the mean of all nodes, weighted by 1/distance²; at a node its own values. */
+/* Add the mean of all nodes, weighted by 1/distance²; at a node its own values.
+ *
+ * One pass, four nodes at a time: their weighted values are summed before they are added to the sum of those before.
+ */
 static void add_from_scatter(const double *pool, const ErrorBlock *block, const double x[LETTERS],
         double errors[ERRORS])
 {
     double total = 0.0;
-    for (int32_t n = 0; n < block->nodes; n++) {
-        double square = square_distance(pool, block, n, x);
-        if (square <= AT_NODE) {
-            add_node(pool, block, block->values + n * block->errors, 1.0, errors);
-            return;
+    double sums[ERRORS] = {0};
+    double square[TOGETHER] = {0};
+    double weight[TOGETHER] = {0};
+    int32_t last = block->nodes - 1;
+    for (int32_t group = 0, group_end = int_floor_div(last, TOGETHER) + 1; group < group_end; group++) {
+        int32_t n = group * TOGETHER;
+        square_distances(pool, block, n, x, square);
+        for (int32_t k = 0; k < TOGETHER; k++) {
+            if (square[k] <= AT_NODE) {
+                add_node(pool, block, block->values + int_min(n + k, last) * block->errors, 1.0, errors);
+                return;
+            }
         }
-        total += 1.0 / square;
+        for (int32_t k = 0; k < TOGETHER; k++) {
+            weight[k] = 1.0 / square[k];
+        }
+        for (int32_t k = last + 1 - n; k < TOGETHER; k++) {
+            weight[k] = 0.0;
+        }
+        double w0 = weight[0];
+        double w1 = weight[1];
+        double w2 = weight[2];
+        double w3 = weight[3];
+        total += w0 + w1 + w2 + w3;
+        int32_t at0 = block->values + n * block->errors;
+        int32_t at1 = block->values + int_min(n + 1, last) * block->errors;
+        int32_t at2 = block->values + int_min(n + 2, last) * block->errors;
+        int32_t at3 = block->values + int_min(n + 3, last) * block->errors;
+        for (int32_t p = 0; p < block->errors; p++) {
+            sums[p] += w0 * pool[at0 + p] + w1 * pool[at1 + p] + w2 * pool[at2 + p] + w3 * pool[at3 + p];
+        }
     }
-    for (int32_t n = 0; n < block->nodes; n++) {
-        double weight = 1.0 / square_distance(pool, block, n, x) / total;
-        add_node(pool, block, block->values + n * block->errors, weight, errors);
+    for (int32_t p = 0; p < block->errors; p++) {
+        errors[(int32_t)pool[block->error + p]] += sums[p] / total;
     }
+}
+
+/* Return the squared distance from a box, 0 within. */
+static double square_from_box(const double *pool, const ErrorBlock *block, int32_t box, const double x[LETTERS])
+{
+    int32_t at = block->steps[0] + 2 * block->arguments * box;
+    double distance = 0.0;
+    for (int32_t d = 0; d < block->arguments; d++) {
+        double below = double_max(pool[at + 2 * d] - x[d], 0.0);
+        double outside = double_max(x[d] - pool[at + 2 * d + 1], below);
+        distance += outside * outside;
+    }
+    return distance;
 }
 
 /* Return where the point of a section that is nearest lies along it, 0 … 1. */
@@ -1547,6 +1609,45 @@ static double square_from_section(const double *pool, const ErrorBlock *block, i
     return distance;
 }
 
+/* Return the section that is nearest, the first of those as near; `near`: one to begin with.
+ *
+ * Boxes that are farther away than the nearest section so far are left out: at most 2 · points[0] boxes and all
+ * sections are looked at, mostly a few.
+ */
+static int32_t nearest_section(const double *pool, const ErrorBlock *block, const double x[LETTERS], int32_t near)
+{
+    int32_t found = near;
+    double shortest = square_from_section(pool, block, near, share_along(pool, block, near, x), x);
+    double waiting[BOXES] = {0};
+    waiting[0] = 1.0;
+    int32_t count = 1;
+    while (count > 0) {
+        count -= 1;
+        int32_t box = (int32_t)waiting[count];
+        if (square_from_box(pool, block, box, x) > shortest) {
+            continue;
+        }
+        if (box < block->points[0]) {
+            /* The nearer one is looked into first. */
+            int32_t first = square_from_box(pool, block, 2 * box, x) > square_from_box(pool, block, 2 * box + 1, x)
+                    ? 1 : 0;
+            waiting[count] = (double)(2 * box + 1 - first);
+            waiting[count + 1] = (double)(2 * box + first);
+            count += 2;
+        } else {
+            int32_t begin = (box - block->points[0]) * IN_BOX;
+            for (int32_t n = begin, n_end = int_min(begin + IN_BOX, block->nodes - 1); n < n_end; n++) {
+                double distance = square_from_section(pool, block, n, share_along(pool, block, n, x), x);
+                if (distance < shortest || (distance == shortest && n < found)) {
+                    shortest = distance;
+                    found = n;
+                }
+            }
+        }
+    }
+    return found;
+}
+
 /* Add the values at the nearest point of the polyline, and return its section, counted from 1.
  *
  * Of sections as near the first one counts; one that is followed, and its neighbours, until another is much nearer.
@@ -1555,29 +1656,24 @@ static int32_t add_from_path(const double *pool, const ErrorBlock *block, const 
         double errors[ERRORS])
 {
     int32_t section = 0;
-    double share = 0.0;
     double shortest = -1.0;
-    int32_t own = 0;
-    double own_share = 0.0;
-    double own_shortest = -1.0;
-    for (int32_t n = 0; n < block->nodes - 1; n++) {
-        double s = share_along(pool, block, n, x);
-        double distance = square_from_section(pool, block, n, s, x);
+    for (int32_t n = int_max(followed - 2, 0), n_end = followed > 0 ? int_min(followed + 1, block->nodes - 1) : 0;
+            n < n_end; n++) {
+        double distance = square_from_section(pool, block, n, share_along(pool, block, n, x), x);
         if (shortest < 0.0 || distance < shortest) {
             shortest = distance;
             section = n;
-            share = s;
-        }
-        if (followed > 0 && int_abs(n + 1 - followed) <= 1 && (own_shortest < 0.0 || distance < own_shortest)) {
-            own_shortest = distance;
-            own = n;
-            own_share = s;
         }
     }
-    bool at_end = (own == 0 && own_share == 0.0) || (own == block->nodes - 2 && own_share == 1.0);
-    if (own_shortest >= 0.0 && !at_end && (own_shortest < BESIDE || own_shortest < 4.0 * shortest)) {
-        section = own;
-        share = own_share;
+    double share = block->nodes > 1 ? share_along(pool, block, section, x) : 0.0;
+    bool at_end = (section == 0 && share == 0.0) || (section == block->nodes - 2 && share == 1.0);
+    if (block->nodes > 1 && (shortest < 0.0 || at_end || shortest >= BESIDE)) {
+        int32_t other = nearest_section(pool, block, x, section);
+        double share_there = share_along(pool, block, other, x);
+        if (shortest < 0.0 || at_end || shortest >= 4.0 * square_from_section(pool, block, other, share_there, x)) {
+            section = other;
+            share = share_there;
+        }
     }
     int32_t at = block->values + section * block->errors;
     add_node(pool, block, at, 1.0 - share, errors);
@@ -2775,6 +2871,19 @@ static bool chain_fits(const VolumetricTable *table)
     return true;
 }
 
+/* Tell whether the boxes around the sections of a path lie in the pool, and hold all sections. */
+static bool boxes_fit(const ErrorBlock *block, int32_t numbers)
+{
+    int32_t leaves = 1;
+    while (leaves < int_floor_div(block->nodes + IN_BOX - 2, IN_BOX)) {
+        leaves += leaves;
+    }
+    if (block->points[0] != leaves || leaves > int_floor_div(numbers, 4 * block->arguments)) {
+        return false;
+    }
+    return range_fits(block->steps[0], 4 * block->arguments * leaves, numbers);
+}
+
 /* Tell whether so many numbers of the pool are at least 0 and below a limit. */
 static bool counts(const double *pool, int32_t first, int32_t count, int32_t limit)
 {
@@ -2842,8 +2951,17 @@ static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numb
     if (block->interpolation == INTERPOLATE_GRID) {
         return knots_fit(pool, block, numbers);
     }
-    return block->nodes <= int_floor_div(numbers, block->arguments)
-            && range_fits(block->knots[0], block->nodes * block->arguments, numbers);
+    int32_t nodes = block->nodes;
+    if (block->interpolation == INTERPOLATE_SCATTER) {
+        nodes = int_floor_div(nodes + TOGETHER - 1, TOGETHER) * TOGETHER;
+    }
+    if (nodes > int_floor_div(numbers, block->arguments)) {
+        return false;
+    }
+    if (!range_fits(block->knots[0], nodes * block->arguments, numbers)) {
+        return false;
+    }
+    return block->interpolation != INTERPOLATE_PATH || boxes_fit(block, numbers);
 }
 
 /* Tell whether a volumetric compensation can be used; one that is not configured is not looked at. */

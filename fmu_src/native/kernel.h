@@ -339,6 +339,9 @@ typedef struct {
 #define INTERPOLATE_GRID 0
 #define INTERPOLATE_SCATTER 1
 #define INTERPOLATE_PATH 2
+#define TOGETHER 4  /* scattered nodes whose coordinates stand together */
+#define IN_BOX 8  /* sections of a path that share a box */
+#define BOXES 64  /* that wait at most while the nearest section is looked for */
 
 #define ERROR_LIMIT_UNDEFINED 911  /* AXC-911: no s_limit where one is needed */
 #define ERROR_LIMIT_EXCEEDED 912  /* AXC-912: a correction is larger than s_limit */
@@ -349,6 +352,11 @@ typedef struct {
  *
  * Value p of node n is at `values + n * errors + p` in the pool, the number of error p at `error + p`. On a grid
  * the last argument changes fastest. Otherwise coordinate d of node n is at `knots[0] + n * arguments + d`.
+ * Of scattered nodes coordinate d of the `TOGETHER` from node n on is at `knots[0] + n * arguments + d * TOGETHER`
+ * and behind; the last node is repeated until these are full.
+ * A path has boxes around its sections: box 1 around all, boxes 2k and 2k + 1 around the halves of what is in box k,
+ * the last `points[0]` of them, a power of 2, around `IN_BOX` sections each; the least coordinate d of box k is at
+ * `steps[0] + 2 * (k * arguments + d)`, the greatest behind.
  */
 typedef struct {
     int32_t interpolation;  /* one of the INTERPOLATE_ constants */

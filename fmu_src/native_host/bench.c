@@ -1,8 +1,9 @@
 /* What a cycle costs in a C host: all inputs set, a step, all outputs read; of an FMU, and of the bare kernel.
  *
  *     bench fmu LIBRARY RESOURCES GUID PLAN BATCHES
- *     bench kernel IMAGE BATCHES
+ *     bench kernel IMAGE BATCHES [TRAVEL]
  *
+ * With TRAVEL the axes go to and fro between ±490, so far in a cycle; 0: each cycle is somewhere else.
  * PLAN is a text: the step size in s; then for real inputs, Boolean inputs, real, Integer and Boolean outputs their
  * number and their value references, for Boolean inputs also their values. Prints for each batch the ns of a cycle. */
 #include <math.h>
@@ -122,7 +123,28 @@ static int bench_fmu(const Fmu *fmu, const char *resources, const char *guid, co
     return status != fmi2OK;
 }
 
-static int bench_kernel(const char *image, int batches)
+/* Let every axis go on: so far in a cycle, or to any place. */
+static void travel_on(const Tables *tables, Inputs *inputs, double travel)
+{
+    static uint64_t drawn = 88172645463325252u;
+    static bool back[AXES];
+    for (int i = 0; i < tables->axis_count; i++) {
+        AxisInputs *axis = &inputs->axis[i];
+        if (travel > 0.0) {
+            back[i] = axis->setpoint > 490.0 || (back[i] && axis->setpoint > -490.0);
+            axis->setpoint += back[i] ? -travel : travel;
+            axis->velocity = (back[i] ? -travel : travel) / tables->cycle_time;
+        } else {
+            drawn ^= drawn << 13;
+            drawn ^= drawn >> 7;
+            drawn ^= drawn << 17;
+            axis->setpoint = 980.0 * (double)(drawn >> 11) / 9007199254740992.0 - 490.0;
+            axis->velocity = axis->setpoint;
+        }
+    }
+}
+
+static int bench_kernel(const char *image, int batches, double travel)
 {
     static Lists lists;
     static State state;
@@ -157,7 +179,12 @@ static int bench_kernel(const char *image, int batches)
     for (int batch = 0; batch < batches; batch++) {
         double begin = now();
         for (int cycle = 0; cycle < CYCLES; cycle++) {
-            axcomp_cycle(&lists.tables, lists.pool, &state, &rows[cycle % ROWS], &outputs);
+            if (travel < 0.0) {
+                axcomp_cycle(&lists.tables, lists.pool, &state, &rows[cycle % ROWS], &outputs);
+            } else {
+                travel_on(&lists.tables, &rows[0], travel);
+                axcomp_cycle(&lists.tables, lists.pool, &state, &rows[0], &outputs);
+            }
         }
         printf("%.3f\n", (now() - begin) / CYCLES);
     }
@@ -179,9 +206,9 @@ int main(int count, char **arguments)
         }
         return bench_fmu(&fmu, arguments[3], arguments[4], &plan, atoi(arguments[6]));
     }
-    if (count == 4 && strcmp(arguments[1], "kernel") == 0) {
-        return bench_kernel(arguments[2], atoi(arguments[3]));
+    if ((count == 4 || count == 5) && strcmp(arguments[1], "kernel") == 0) {
+        return bench_kernel(arguments[2], atoi(arguments[3]), count == 5 ? atof(arguments[4]) : -1.0);
     }
-    fputs("usage: bench fmu LIBRARY RESOURCES GUID PLAN BATCHES | bench kernel IMAGE BATCHES\n", stderr);
+    fputs("usage: bench fmu LIBRARY RESOURCES GUID PLAN BATCHES | bench kernel IMAGE BATCHES [TRAVEL]\n", stderr);
     return 2;
 }

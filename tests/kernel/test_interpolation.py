@@ -1,6 +1,8 @@
 """Curves, folding and the short way round, against NumPy."""
 
 import math
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -55,6 +57,41 @@ def test_where_the_last_search_ended_changes_no_value(data: st.DataObject) -> No
     wandering = zero(Lookup)
     for at in data.draw(st.lists(numbers | st.sampled_from(x), max_size=40)):
         assert curve_value(pool, curve, at, wandering) == curve_value(pool, curve, at, zero(Lookup))
+
+
+class Counted(list[float]):
+    """A pool that counts what is read."""
+
+    reads = 0
+
+    def __getitem__(self, place: Any) -> Any:
+        self.reads += 1
+        return super().__getitem__(place)
+
+
+def most_reads(x: list[float], course: Iterable[float]) -> int:
+    """Return how many numbers a value on a course costs at most."""
+    pool, curve = curve_of(x, x)
+    counted, lookup, most = Counted(pool), zero(Lookup), 0
+    for at in course:
+        counted.reads = 0
+        assert curve_value(counted, curve, at, lookup) == pytest.approx(at)
+        most = max(most, counted.reads)
+    return most
+
+
+@pytest.mark.parametrize("points", [10, 1000, 100_000])
+@pytest.mark.parametrize("travel", [0.25, 10.0, 333.3])
+def test_a_long_table_costs_what_a_short_one_does_however_far_a_cycle_goes(points: int, travel: float) -> None:
+    uneven = [1000.0 * (k + 0.4 * math.sin(k)) / points for k in range(points)]
+    course = [450.0 + 440.0 * math.sin(travel / 440.0 * cycle) for cycle in range(300)]
+    assert most_reads(uneven, course) <= 25
+
+
+def test_no_search_takes_more_than_its_bound_however_uneven_the_table() -> None:
+    x = [1.01**k for k in range(2000)]
+    places = np.random.default_rng(1).uniform(1.0, x[-1], 300).tolist()
+    assert most_reads(x, [*places, *x[::-97]]) <= 2 * math.log2(len(x)) + 20
 
 
 def test_one_point_is_a_constant() -> None:

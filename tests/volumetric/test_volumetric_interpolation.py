@@ -293,3 +293,61 @@ def test_a_jump_to_another_part_of_a_path_is_followed() -> None:
     runtime = Runtime(machine_of(volumetric("XYZ", errors=(one,))))
     assert corrections_of(runtime, {"X": 20.0, "Y": 20.0})["Z"] == pytest.approx(-0.02)
     assert corrections_of(runtime, {"X": 20.0, "Y": 80.0})["Z"] == pytest.approx(-0.28)
+
+
+def squares_from(path: Array, place: Array) -> tuple[Array, Array]:
+    """Return the squared distances of a place from all sections of a polyline, and where their feet lie, 0 … 1."""
+    way = np.diff(path, axis=0)
+    along = np.clip(((place - path[:-1]) * way).sum(axis=1) / (way * way).sum(axis=1), 0.0, 1.0)
+    square: Array = ((place - (path[:-1] + along[:, None] * way)) ** 2).sum(axis=1)
+    return square, along
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(2, 700), st.sampled_from(["XYZ", "XY", "Z"]), st.booleans(), st.integers(0, 2**32))
+def test_of_a_long_path_the_section_is_found_as_if_all_were_looked_at(
+    corners: int, arguments: str, whole: bool, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    steps = rng.integers(1, 4, (corners, len(arguments))) * rng.choice([-1, 1], (corners, len(arguments)))
+    path = np.cumsum(steps if whole else steps * rng.uniform(0.1, 2.0, (corners, 1)), axis=0).astype(float)
+    one = table("EXX", arguments, path, np.arange(corners) / 2000.0, Interpolation.PATH)
+    tables, pool = compile_tables(machine_of(volumetric("XYZ", errors=(one,))))
+    wander = np.cumsum(rng.normal(0.0, 1.0, (60, len(arguments))), axis=0) + path[rng.integers(corners)]
+    if whole:
+        wander = np.round(2.0 * wander) / 2.0  # many sections are as near
+    followed, kept = [0] * len(ERRORS), 0
+    for place in [*wander, *rng.uniform(path.min(), path.max(), (20, len(arguments)))]:
+        square, along = squares_from(path, place)
+        section = int(square.argmin())
+        if kept:
+            around = np.arange(max(kept - 2, 0), min(kept + 1, corners - 1))
+            own = int(around[square[around].argmin()])
+            at_end = (own == 0 and along[0] == 0.0) or (own == corners - 2 and along[-1] == 1.0)
+            if not at_end and (square[own] < 1.0 or square[own] < 4.0 * square[section]):
+                section = own
+        kept = section + 1
+        position, errors = zeros(len(LETTERS)), zeros(len(ERRORS))
+        for letter, q in zip(arguments, place.tolist(), strict=True):
+            position[LETTERS.index(letter)] = q
+        errors_at(pool, tables.volumetric[0], position, followed, errors)
+        nearest = square <= square.min() * (1.0 + 1e-9) + 1e-18  # rounding may prefer another of those as near
+        assert followed[0] == kept or nearest[followed[0] - 1]
+        kept = followed[0]
+        assert errors[ERRORS.index("EXX")] == pytest.approx((followed[0] - 1 + along[followed[0] - 1]) / 2000.0)
+
+
+@pytest.mark.parametrize("count", [1, 3, 4, 5, 257])
+def test_any_number_of_scattered_records_over_any_arguments(count: int) -> None:
+    rng = np.random.default_rng(count)
+    nodes = rng.uniform(-100.0, 100.0, (count, 4))
+    tables = [
+        table(name, "XYZC", nodes, rng.uniform(-0.5, 0.5, count), Interpolation.SCATTER)
+        for name in ("EXX", "EYX", "EZX", "EAX", "EBX", "ECX", "X0Y")
+    ]
+    places = rng.uniform(-100.0, 100.0, (20, 4))
+    difference = places[:, None, :] - nodes
+    difference[:, :, 3] -= 360.0 * np.round(difference[:, :, 3] / 360.0)
+    weights = 1.0 / (difference**2).sum(axis=2)
+    expected = weights @ np.array([one.values for one in tables]).T / weights.sum(axis=1, keepdims=True)
+    assert evaluate(tables, places, "XYZC") == pytest.approx(expected, abs=1e-13)
