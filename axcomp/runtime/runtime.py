@@ -23,6 +23,7 @@ from ..kernel import (
     adopt_volumetrics,
     cycle,
     has_notice,
+    keep_declared,
     move_axis_table,
     update_error,
     zero,
@@ -197,8 +198,8 @@ class Runtime:
         others = (one for one in self.machine.volumetric if one.index != index)
         machine = replace(self.machine, volumetric=tuple(sorted((*others, volumetric), key=lambda one: one.index)))
         after, pool = compile_tables(machine, self.tables.cycle_time)
-        for kept in range(after.axis_count):
-            self._keep_axis(after, pool, kept)
+        for old, new in zip(self.tables.axis, after.axis, strict=True):
+            keep_declared(old, new)
         adopt_volumetric(self.tables.volumetric[index], after.volumetric[index], self.state.volumetric[index])
         self.outputs.volumetric[index].active = False
         self.machine, self.tables, self.pool = machine, after, pool
