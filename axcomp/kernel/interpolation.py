@@ -49,16 +49,16 @@ def search_interval(pool: Vec, first: int, points: int, x: float, last: int) -> 
     high = low + 1
     step = 1
     if x < pool[first + low]:
-        while low > 0 and x < pool[first + low]:
+        while low > 0 and x < pool[first + low]:  # at most 32 times
             high = low
             low = max(high - step, 0)
             step += step
     else:
-        while high < end and x >= pool[first + high]:
+        while high < end and x >= pool[first + high]:  # at most 32 times
             low = high
             high = min(low + step, end)
             step += step
-    while high - low > 1:
+    while high - low > 1:  # at most 32 times
         middle = (low + high) >> 1
         if x < pool[first + middle]:
             high = middle

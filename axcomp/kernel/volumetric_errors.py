@@ -110,7 +110,7 @@ def find_cell(pool: Vec, block: ErrorBlock, d: int, x: float) -> int:
     step = block.steps[d] + int((x - pool[first]) * block.steps_per_unit[d])
     low = int(pool[step])
     high = min(int(pool[step + 1]) + 1, block.points[d] - 1)
-    while high - low > 1:
+    while high - low > 1:  # at most 32 times
         middle = (low + high) >> 1
         if x < pool[first + middle]:
             high = middle

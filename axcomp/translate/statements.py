@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import dataclass
 from typing import TypeGuard
 
@@ -14,6 +15,9 @@ from .program import Constant, Function, Intrinsic, Program, Struct
 from .scopes import Block, Declarations, Flow, mentions, names_in, stores
 from .subset import RefusedError, check_name, outside
 from .writer import Writer
+
+AT_MOST = re.compile(r"at most (\d+) times")
+"""In the comment on the head of a loop: an analysis of the C code is told so (ACSL)."""
 
 
 def prototype(function: Function, effects: Effects) -> str:
@@ -290,6 +294,8 @@ class Body:
         note = self._margins.head_notes(node, node.body)
         if node.orelse:
             self._report.add(self._module.file, RefusedError(node, "a loop has no else in C"))
+        if found := AT_MOST.search(note):
+            self.writer.extend([f"{' ' * 4 * self.writer.depth}//@ loop unroll {int(found[1])};"])
         self.writer.write(f"while ({self._condition(node)}) {{", note)
         self._block(node.body)
         self.writer.write("}")

@@ -340,19 +340,22 @@ static int32_t search_interval(const double *pool, int32_t first, int32_t points
     int32_t high = low + 1;
     int32_t step = 1;
     if (x < pool[first + low]) {
-        while (low > 0 && x < pool[first + low]) {
+        //@ loop unroll 32;
+        while (low > 0 && x < pool[first + low]) {  /* at most 32 times */
             high = low;
             low = int_max(high - step, 0);
             step += step;
         }
     } else {
-        while (high < end && x >= pool[first + high]) {
+        //@ loop unroll 32;
+        while (high < end && x >= pool[first + high]) {  /* at most 32 times */
             low = high;
             high = int_min(low + step, end);
             step += step;
         }
     }
-    while (high - low > 1) {
+    //@ loop unroll 32;
+    while (high - low > 1) {  /* at most 32 times */
         int32_t middle = (low + high) >> 1;
         if (x < pool[first + middle]) {
             high = middle;
@@ -1431,7 +1434,8 @@ static int32_t find_cell(const double *pool, const ErrorBlock *block, int32_t d,
     int32_t step = block->steps[d] + (int32_t)((x - pool[first]) * block->steps_per_unit[d]);
     int32_t low = (int32_t)pool[step];
     int32_t high = int_min((int32_t)pool[step + 1] + 1, block->points[d] - 1);
-    while (high - low > 1) {
+    //@ loop unroll 32;
+    while (high - low > 1) {  /* at most 32 times */
         int32_t middle = (low + high) >> 1;
         if (x < pool[first + middle]) {
             high = middle;
