@@ -52,12 +52,12 @@ def search_interval(pool: Vec, first: int, points: int, x: float, last: int) -> 
         while low > 0 and x < pool[first + low]:  # at most 32 times
             high = low
             low = max(high - step, 0)
-            step += step
+            step = min(step + step, end)
     else:
         while high < end and x >= pool[first + high]:  # at most 32 times
             low = high
             high = min(low + step, end)
-            step += step
+            step = min(step + step, end)
     while high - low > 1:  # at most 32 times
         middle = (low + high) >> 1
         if x < pool[first + middle]:

@@ -344,14 +344,14 @@ static int32_t search_interval(const double *pool, int32_t first, int32_t points
         while (low > 0 && x < pool[first + low]) {  /* at most 32 times */
             high = low;
             low = int_max(high - step, 0);
-            step += step;
+            step = int_min(step + step, end);
         }
     } else {
         //@ loop unroll 32;
         while (high < end && x >= pool[first + high]) {  /* at most 32 times */
             low = high;
             high = int_min(low + step, end);
-            step += step;
+            step = int_min(step + step, end);
         }
     }
     //@ loop unroll 32;
