@@ -12,15 +12,7 @@ from ..fmu import IMAGE
 from ..interface import Variable, variables_of, with_causality
 from ..lists import read_machine
 from ..model import CYCLE_TIME, Machine, fmu_sources, models
-from ..native import (
-    LIBRARY_SOURCES,
-    PLATFORMS,
-    compile_library,
-    compile_program,
-    compiler_of,
-    image_of,
-    own_platform,
-)
+from ..native import LIBRARY_SOURCES, PLATFORMS, compile_library, compile_program, compiler_of, image_of, own_platform
 from ..runtime import compile_tables
 from .clock import Sample
 from .machines import machine_of

@@ -29,7 +29,7 @@ from .leadscrew import (
     leadscrew_value,
     move_leadscrew,
 )
-from .motion import Motion
+from .motion import AxisMotion, Motion
 from .plane import PlaneTable, move_plane, plane_fits, plane_value
 from .record import Vec
 from .temperature import (
@@ -93,13 +93,13 @@ def compensation_value(
     states: CompensationStates,
     given: CompensationInputs,
     motion: Motion,
-    axis: int,
+    own: AxisMotion,
     position: float,
     cycle_time: float,
 ) -> float:
     """Return what a kind adds to the setpoint or the current of an axis at full weight.
 
-    ``position``: the setpoint with all that was added before.
+    ``own``: the motion of the axis; ``position``: its setpoint with all that was added before.
     """
     if kind == CROSS:
         return cross_value(pool, tables.cross, states.cross, motion)
@@ -108,14 +108,14 @@ def compensation_value(
     if kind == CROSSTALK:
         return crosstalk_value(pool, tables.crosstalk, states.crosstalk, motion)
     if kind == TEMPERATURE:
-        return temperature_value(tables.temperature, states.temperature, motion.axis[axis].setpoint)
+        return temperature_value(tables.temperature, states.temperature, own.setpoint)
     if kind == LEADSCREW:
         if tables.leadscrew.without_other:
-            position = motion.axis[axis].setpoint
+            position = own.setpoint
         return leadscrew_value(pool, tables.leadscrew, states.leadscrew, position)
     if kind == BACKLASH:
-        return backlash_value(tables.backlash, states.backlash, motion.axis[axis].direction)
-    return friction_current(pool, tables.friction, states.friction, given.friction, motion.axis[axis], cycle_time)
+        return backlash_value(tables.backlash, states.backlash, own.direction)
+    return friction_current(pool, tables.friction, states.friction, given.friction, own, cycle_time)
 
 
 def settled_value(

@@ -15,9 +15,7 @@ FOLDER = Path(__file__).with_name("prebuilt")
 MANIFEST = FOLDER / "manifest.json"
 """``compiler``, ``sources``: their checksum, ``libraries``: file name → checksum."""
 
-STALE = (
-    "the C sources have changed since the libraries were built (python -m axcomp.native.prebuild builds them again)"
-)
+STALE = "the C sources have changed since the libraries were built (python -m axcomp.native.prebuild builds them again)"
 
 
 def prebuilt_path(platform: str) -> Path:

@@ -1110,10 +1110,10 @@ static bool temperature_fits(const TemperatureTable *table)
 
 /* Return what a kind adds to the setpoint or the current of an axis at full weight.
  *
- * `position`: the setpoint with all that was added before.
+ * `own`: the motion of the axis; `position`: its setpoint with all that was added before.
  */
 static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis,
+        CompensationStates *states, const CompensationInputs *given, const Motion *motion, const AxisMotion *own,
         double position, double cycle_time)
 {
     if (kind == CROSS) {
@@ -1126,19 +1126,18 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
         return crosstalk_value(pool, &tables->crosstalk, &states->crosstalk, motion);
     }
     if (kind == TEMPERATURE) {
-        return temperature_value(&tables->temperature, &states->temperature, motion->axis[axis].setpoint);
+        return temperature_value(&tables->temperature, &states->temperature, own->setpoint);
     }
     if (kind == LEADSCREW) {
         if (tables->leadscrew.without_other) {
-            position = motion->axis[axis].setpoint;
+            position = own->setpoint;
         }
         return leadscrew_value(pool, &tables->leadscrew, &states->leadscrew, position);
     }
     if (kind == BACKLASH) {
-        return backlash_value(&tables->backlash, &states->backlash, motion->axis[axis].direction);
+        return backlash_value(&tables->backlash, &states->backlash, own->direction);
     }
-    return friction_current(pool, &tables->friction, &states->friction, &given->friction, &motion->axis[axis],
-            cycle_time);
+    return friction_current(pool, &tables->friction, &states->friction, &given->friction, own, cycle_time);
 }
 
 /* Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0. */
@@ -2505,9 +2504,9 @@ static void report_tool_length(const Tables *tables, const Inputs *inputs, Outpu
  */
 
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
-static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, const Inputs *inputs, int32_t i)
+static void accept(double modulo_range, AxisState *axis, AxisMotion *motion, const AxisInputs *given,
+        bool derive_motion, double cycle_time)
 {
-    const AxisInputs *given = &inputs->axis[i];
     axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
             && -LARGEST < given->velocity && given->velocity < LARGEST
             && -LARGEST < given->acceleration && given->acceleration < LARGEST
@@ -2519,30 +2518,29 @@ static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, co
         }
         double velocity = given->velocity;
         double acceleration = given->acceleration;
-        if (inputs->derive_motion) {
-            double way = nearest(given->setpoint - motion->setpoint, tables->axis[i].modulo_range);
-            velocity = way / tables->cycle_time;
-            acceleration = (velocity - motion->velocity) / tables->cycle_time;
+        if (derive_motion) {
+            double way = nearest(given->setpoint - motion->setpoint, modulo_range);
+            velocity = way / cycle_time;
+            acceleration = (velocity - motion->velocity) / cycle_time;
         }
-        move_axis(motion, given->setpoint, velocity, tables->cycle_time, tables->axis[i].modulo_range);
+        move_axis(motion, given->setpoint, velocity, cycle_time, modulo_range);
         motion->acceleration = acceleration;
     }
 }
 
-/* Return what a kind adds to axis i in this cycle, after `correction`.
+/* Return what a kind adds to an axis in this cycle, after `correction`.
  *
  * What NO_MOVE absorbs of it goes into the shift. Without a table it adds what is left of the one it had.
  */
-static double correct_by(int32_t kind, const Tables *tables, const double *pool, State *state, const AxisInputs *given,
-        AxisOutputs *out, int32_t i, double correction)
+static double correct_by(int32_t kind, const AxisTable *table, const double *pool, AxisState *axis,
+        const Motion *motions, const AxisMotion *motion, const AxisInputs *given, AxisOutputs *out, double correction,
+        double cycle_time)
 {
-    const AxisTable *table = &tables->axis[i];
-    AxisState *axis = &state->axis[i];
     const SwitchTable *switching = &table->switching[kind];
     SwitchState *own = &axis->switching[kind];
     double value = 0.0;
     if (switching->configured) {
-        double position = state->motion.axis[i].setpoint;
+        double position = motion->setpoint;
         if (has_inputs(kind)) {
             double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation, position);
             if (axis->started) {
@@ -2552,8 +2550,8 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
         if (kind == LEADSCREW) {
             position = position + (correction + axis->shift.before.now);
         }
-        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation,
-                &state->motion, i, position, tables->cycle_time);
+        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation, motions,
+                motion, position, cycle_time);
     }
     double contribution = contribution_of(switching, own, value);
     if (!axis->settled && kind < FRICTION) {
@@ -2563,13 +2561,10 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
     return contribution;
 }
 
-/* Correct one axis. */
-static void correct_axis(const Tables *tables, const double *pool, State *state, const AxisInputs *given,
-        AxisOutputs *out, int32_t i)
+/* Correct one axis, whose motion is among `motions`. */
+static void correct_axis(const AxisTable *table, const double *pool, AxisState *axis, const Motion *motions,
+        const AxisMotion *motion, const AxisInputs *given, AxisOutputs *out, double cycle_time)
 {
-    const AxisTable *table = &tables->axis[i];
-    AxisState *axis = &state->axis[i];
-    const AxisMotion *motion = &state->motion.axis[i];
     if (axis->shift.pending) {
         release_shift(table->shift_cycles, &axis->shift, motion->moving);
     }
@@ -2577,7 +2572,7 @@ static void correct_axis(const Tables *tables, const double *pool, State *state,
     double correction = 0.0;
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
         int32_t kind = table->kind[k];
-        double contribution = correct_by(kind, tables, pool, state, given, out, i, correction);
+        double contribution = correct_by(kind, table, pool, axis, motions, motion, given, out, correction, cycle_time);
         if (kind < FRICTION) {
             correction += contribution;
         }
@@ -2597,9 +2592,12 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
 {
     bool references_changed = false;
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(tables, &state->axis[i], &state->motion.axis[i], inputs, i);
-        if (inputs->axis[i].referenced != state->axis[i].referenced) {
-            state->axis[i].referenced = inputs->axis[i].referenced;
+        AxisState *own = &state->axis[i];
+        const AxisInputs *given = &inputs->axis[i];
+        accept(tables->axis[i].modulo_range, own, &state->motion.axis[i], given, inputs->derive_motion,
+                tables->cycle_time);
+        if (given->referenced != own->referenced) {
+            own->referenced = given->referenced;
             references_changed = true;
         }
     }
@@ -2607,18 +2605,20 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
         compensate_volume(tables, pool, state, inputs, outputs);
     }
     for (int32_t i = 0; i < tables->axis_count; i++) {
+        const AxisTable *table = &tables->axis[i];
         AxisState *axis = &state->axis[i];
+        AxisOutputs *out = &outputs->axis[i];
         if (inputs->reset) {
             axis->error = 0;
         }
-        bool moving = state->motion.axis[i].moving;
-        activate_if_stirred(&tables->axis[i], axis, inputs, &inputs->axis[i], &outputs->axis[i], moving,
-                references_changed);
+        const AxisInputs *given = &inputs->axis[i];
+        const AxisMotion *motion = &state->motion.axis[i];
+        activate_if_stirred(table, axis, inputs, given, out, motion->moving, references_changed);
         if (axis->held) {
-            outputs->axis[i].error = ERROR_INPUT;
+            out->error = ERROR_INPUT;
         } else {
-            correct_axis(tables, pool, state, &inputs->axis[i], &outputs->axis[i], i);
-            outputs->axis[i].error = axis->error;
+            correct_axis(table, pool, axis, &state->motion, motion, given, out, tables->cycle_time);
+            out->error = axis->error;
         }
     }
     if (tables->volumetrics > 0) {

@@ -137,7 +137,10 @@ def test_without_a_compiler_a_sentence_says_what_to_install(
 ) -> None:
     monkeypatch.delenv("CC", raising=False)
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(NoCompilerError, match=r"they are old; there is no C compiler: install gcc or clang, or pip install axcomp\[cross\]"):
+    with pytest.raises(
+        NoCompilerError,
+        match=r"they are old; there is no C compiler: install gcc or clang, or pip install axcomp\[cross\]",
+    ):
         package_native(lists, tmp_path)
     assert list(tmp_path.iterdir()) == []
 
