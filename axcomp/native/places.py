@@ -112,6 +112,6 @@ def _member(block: int, declared: Declaration) -> str:
 def _fields_in(cls: Any) -> Iterator[str]:
     """Yield the fields of a record, and behind each those of the records in it, with their types and lengths."""
     for part in parts_of(cls):
-        yield f"{part.name} {part.type.__name__} {part.count}"
+        yield f"{part.name} {part.type.__name__} {part.length}"
         if dataclasses.is_dataclass(part.type):
             yield from _fields_in(part.type)

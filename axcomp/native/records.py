@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import struct
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from functools import cache
 from typing import Annotated, Any, NamedTuple, get_args, get_origin
 
@@ -21,17 +21,21 @@ ROOTS = {"axcomp_axis_parts": AxisTable, "axcomp_volumetric_parts": VolumetricTa
 
 
 class Part(NamedTuple):
-    """A field of a record: ``count`` elements of a type; ``is_list``: in an array."""
+    """A field of a record: ``length`` elements of a type; ``is_list``: in an array."""
 
     name: str
     type: Any
-    count: int
+    length: int
     is_list: bool
 
 
-@cache
 def parts_of(cls: Any) -> tuple[Part, ...]:
     """Return the fields of a record."""
+    return _parts_of(cls)
+
+
+@cache
+def _parts_of(cls: Hashable) -> tuple[Part, ...]:
     parts = []
     for name, hint in fields_of(cls).items():
         is_list = get_origin(hint) is Annotated
@@ -41,11 +45,11 @@ def parts_of(cls: Any) -> tuple[Part, ...]:
 
 
 @cache
-def _format(cls: Any) -> str:
-    return "".join(_FORMATS.get(part.type) or _format(part.type) for part in parts_of(cls) for _ in range(part.count))
+def _format(cls: Hashable) -> str:
+    return "".join(_FORMATS.get(part.type) or _format(part.type) for part in parts_of(cls) for _ in range(part.length))
 
 
-def size_of(cls: Any) -> int:
+def size_of(cls: Hashable) -> int:
     """Return how many bytes of an image a record has."""
     return struct.calcsize("<" + _format(cls))
 
@@ -105,7 +109,7 @@ def records_source(generated: str) -> str:
             kind = _C_TYPES[part.type] if known else part.type.__name__
             inner = "NULL" if known else name_of(part.type)
             place = f"offsetof({cls.__name__}, {part.name})"
-            lines.append(f"    {{'{_LETTERS.get(part.type, 'r')}', {part.count}, {place}, sizeof({kind}), {inner}}},")
+            lines.append(f"    {{'{_LETTERS.get(part.type, 'r')}', {part.length}, {place}, sizeof({kind}), {inner}}},")
         lines.extend(["    {0, 0, 0, 0, NULL}", "};", ""])
 
     for root in ROOTS.values():

@@ -1136,11 +1136,11 @@ static bool temperature_fits(const TemperatureTable *table)
 
 /* Return what a kind adds to the setpoint or the current of an axis at full weight.
  *
- * `added`: to the setpoint before the leadscrew.
+ * `own`: the motion of the axis; `added`: to its setpoint before the leadscrew.
  */
 static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis, double added,
-        double cycle_time)
+        CompensationStates *states, const CompensationInputs *given, const Motion *motion, const AxisMotion *own,
+        double added, double cycle_time)
 {
     if (kind == CROSS) {
         return cross_value(pool, &tables->cross, &states->cross, motion);
@@ -1152,17 +1152,16 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
         return crosstalk_value(pool, &tables->crosstalk, &states->crosstalk, motion);
     }
     if (kind == TEMPERATURE) {
-        return temperature_value(&tables->temperature, &states->temperature, motion->axis[axis].setpoint);
+        return temperature_value(&tables->temperature, &states->temperature, own->setpoint);
     }
     if (kind == LEADSCREW) {
-        double position = leadscrew_input(&tables->leadscrew, motion->axis[axis].setpoint, added);
+        double position = leadscrew_input(&tables->leadscrew, own->setpoint, added);
         return leadscrew_value(pool, &tables->leadscrew, &states->leadscrew, position);
     }
     if (kind == BACKLASH) {
-        return backlash_value(&tables->backlash, &states->backlash, motion->axis[axis].direction);
+        return backlash_value(&tables->backlash, &states->backlash, own->direction);
     }
-    return friction_current(pool, &tables->friction, &states->friction, &given->friction, &motion->axis[axis],
-            cycle_time);
+    return friction_current(pool, &tables->friction, &states->friction, &given->friction, own, cycle_time);
 }
 
 /* Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0. */
@@ -2587,9 +2586,9 @@ static void report_tool_length(const Tables *tables, const Inputs *inputs, Outpu
  */
 
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
-static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, const Inputs *inputs, int32_t i)
+static void accept(double modulo_range, AxisState *axis, AxisMotion *motion, const AxisInputs *given,
+        bool derive_motion, double cycle_time)
 {
-    const AxisInputs *given = &inputs->axis[i];
     axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
             && -LARGEST < given->velocity && given->velocity < LARGEST
             && -LARGEST < given->acceleration && given->acceleration < LARGEST
@@ -2601,25 +2600,24 @@ static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, co
         }
         double velocity = given->velocity;
         double acceleration = given->acceleration;
-        if (inputs->derive_motion) {
-            double way = nearest(given->setpoint - motion->setpoint, tables->axis[i].modulo_range);
-            velocity = way / tables->cycle_time;
-            acceleration = (velocity - motion->velocity) / tables->cycle_time;
+        if (derive_motion) {
+            double way = nearest(given->setpoint - motion->setpoint, modulo_range);
+            velocity = way / cycle_time;
+            acceleration = (velocity - motion->velocity) / cycle_time;
         }
-        move_axis(motion, given->setpoint, velocity, tables->cycle_time, tables->axis[i].modulo_range);
+        move_axis(motion, given->setpoint, velocity, cycle_time, modulo_range);
         motion->acceleration = acceleration;
     }
 }
 
-/* Return what a kind adds to axis i in this cycle, after `correction`.
+/* Return what a kind adds to an axis in this cycle, after `correction`.
  *
  * What NO_MOVE absorbs of it goes into the shift. Without a table it adds what is left of the one it had.
  */
-static double correct_by(int32_t kind, const Tables *tables, const double *pool, State *state, const AxisInputs *given,
-        AxisOutputs *out, int32_t i, double correction)
+static double correct_by(int32_t kind, const AxisTable *table, const double *pool, AxisState *axis,
+        const Motion *motions, const AxisMotion *motion, const AxisInputs *given, AxisOutputs *out, double correction,
+        double cycle_time)
 {
-    const AxisTable *table = &tables->axis[i];
-    AxisState *axis = &state->axis[i];
     const SwitchTable *switching = &table->switching[kind];
     SwitchState *own = &axis->switching[kind];
     double value = 0.0;
@@ -2628,14 +2626,14 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
     }
     if (switching->configured) {
         if (has_inputs(kind)) {
-            double setpoint = state->motion.axis[i].setpoint;
-            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation, setpoint);
+            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation,
+                    motion->setpoint);
             if (axis->started) {
                 blend_in(switching, own, own->weight * lost);
             }
         }
-        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation,
-                &state->motion, i, axis->added, tables->cycle_time);
+        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation, motions,
+                motion, axis->added, cycle_time);
     }
     double contribution = contribution_of(switching, own, value);
     if (!axis->settled && kind < FRICTION) {
@@ -2645,13 +2643,10 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
     return contribution;
 }
 
-/* Correct one axis. */
-static void correct_axis(const Tables *tables, const double *pool, State *state, const AxisInputs *given,
-        AxisOutputs *out, int32_t i)
+/* Correct one axis, whose motion is among `motions`. */
+static void correct_axis(const AxisTable *table, const double *pool, AxisState *axis, const Motion *motions,
+        const AxisMotion *motion, const AxisInputs *given, AxisOutputs *out, double cycle_time)
 {
-    const AxisTable *table = &tables->axis[i];
-    AxisState *axis = &state->axis[i];
-    const AxisMotion *motion = &state->motion.axis[i];
     if (axis->shift.pending) {
         release_shift(table->shift_cycles, &axis->shift, motion->moving);
     }
@@ -2659,7 +2654,7 @@ static void correct_axis(const Tables *tables, const double *pool, State *state,
     double correction = 0.0;
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
         int32_t kind = table->kind[k];
-        double contribution = correct_by(kind, tables, pool, state, given, out, i, correction);
+        double contribution = correct_by(kind, table, pool, axis, motions, motion, given, out, correction, cycle_time);
         if (kind < FRICTION) {
             correction += contribution;
         }
@@ -2679,9 +2674,12 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
 {
     bool references_changed = false;
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(tables, &state->axis[i], &state->motion.axis[i], inputs, i);
-        if (inputs->axis[i].unreferenced != state->axis[i].unreferenced) {
-            state->axis[i].unreferenced = inputs->axis[i].unreferenced;
+        AxisState *own = &state->axis[i];
+        const AxisInputs *given = &inputs->axis[i];
+        accept(tables->axis[i].modulo_range, own, &state->motion.axis[i], given, inputs->derive_motion,
+                tables->cycle_time);
+        if (given->unreferenced != own->unreferenced) {
+            own->unreferenced = given->unreferenced;
             references_changed = true;
         }
     }
@@ -2689,18 +2687,20 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
         compensate_volume(tables, pool, state, inputs, outputs);
     }
     for (int32_t i = 0; i < tables->axis_count; i++) {
+        const AxisTable *table = &tables->axis[i];
         AxisState *axis = &state->axis[i];
+        AxisOutputs *out = &outputs->axis[i];
         if (inputs->reset) {
             axis->error = 0;
         }
-        bool moving = state->motion.axis[i].moving;
-        activate_if_stirred(&tables->axis[i], axis, inputs, &inputs->axis[i], &outputs->axis[i], moving,
-                references_changed);
+        const AxisInputs *given = &inputs->axis[i];
+        const AxisMotion *motion = &state->motion.axis[i];
+        activate_if_stirred(table, axis, inputs, given, out, motion->moving, references_changed);
         if (axis->held) {
-            outputs->axis[i].error = ERROR_INPUT;
+            out->error = ERROR_INPUT;
         } else {
-            correct_axis(tables, pool, state, &inputs->axis[i], &outputs->axis[i], i);
-            outputs->axis[i].error = axis->error;
+            correct_axis(table, pool, axis, &state->motion, motion, given, out, tables->cycle_time);
+            out->error = axis->error;
         }
     }
     if (tables->volumetrics > 0) {
