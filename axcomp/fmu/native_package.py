@@ -75,7 +75,9 @@ def package_native(
     files = {f"resources/{name}": data for name, data in content.lists.items()}
     files.update(_libraries(platforms or (own_platform(),)))
     description = replace(
-        content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
+        content.description,
+        capabilities={"needsExecutionTool": False, "canInterpolateInputs": True},
+        source_files=(*SOURCES, TABLES_SOURCE),
     )
     guid = _guid(content)
     image = image_of(content.compiled, guid, content.findings)

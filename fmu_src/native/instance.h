@@ -28,7 +28,11 @@ typedef struct {
     Inputs inputs;
     Outputs outputs;
     Controls controls;
+    Inputs slopes;      /* derivatives of the Real inputs, where these are in `inputs`; for the next step */
+    bool sloped;        /* one of them has been set */
     double start_time;  /* s */
+    double stop_time;   /* s; infinite: none is known */
+    double time;        /* where the last step ended, s */
     double cycles;      /* run so far */
     Phase phase;
     bool reload_seen;   /* `reload` was on in the last step: there is no edge until it has been off */
@@ -45,6 +49,7 @@ typedef struct {
     Lists *waiting;       /* read by `reload`, for the next step; NULL: none */
     Lists *first;
     Memory memory;
+    Inputs begin;         /* those at the begin of a step whose inputs have a slope */
     State preview;        /* of the cycle that is computed during initialization, without being run */
     uint32_t told[KINDS + 1]; /* bit i: that a kind of axis i was used beyond its table; the last: a switch was none */
 } Instance;
@@ -72,8 +77,8 @@ Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);
 
-/* Run the cycles whose instants lie before `time`, s. */
-fmi2Status axcomp_advance(Instance *instance, double time);
+/* Make a step from `begin` to `end`, s: run the cycles whose instants lie before its end and have not been run. */
+fmi2Status axcomp_advance(Instance *instance, double begin, double end);
 
 /* Whether the parameter cycle_time is possible. */
 bool axcomp_cycle_time_fits(double cycle_time);

@@ -163,6 +163,40 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi
     return fmi2OK;
 }
 
+/* First derivatives: the inputs go on along them during the next step. Those of higher order are passed over. */
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component component,
+                                                              const fmi2ValueReference references[], size_t count,
+                                                              const fmi2Integer orders[], const fmi2Real values[])
+{
+    Instance *instance = writable(component, references, values, count);
+    if (count > 0) {
+        instance = axcomp_given(instance, orders, "fmi2SetRealInputDerivatives");
+    }
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    fmi2Status status = fmi2OK;
+    Memory *memory = &instance->memory;
+    const Place *place;
+    for (size_t i = 0; i < count; i++) {
+        const char *value = (const char *)settable(instance, references[i], 'r', &place);
+        if (value == NULL) {
+            return fmi2Error;
+        }
+        if (place->causality != 'i' || orders[i] < 1) {
+            return axcomp_say(instance, fmi2Error, "the variable with the value reference %u has no derivative of order %d",
+                              references[i], orders[i]);
+        }
+        if (orders[i] > 1) {
+            status = axcomp_say(instance, fmi2Warning, "derivatives of order %d are not used, only the first", orders[i]);
+        } else {
+            *(double *)((char *)&memory->slopes + (value - (const char *)&memory->inputs)) = values[i];
+            memory->sloped = true;
+        }
+    }
+    return status;
+}
+
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component component, const fmi2ValueReference references[],
                                                  size_t count, const fmi2Integer values[])
 {
