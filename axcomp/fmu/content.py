@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from ..interface import Naming, Variable, identifier, variables_of
+from ..interface import Naming, Types, Variable, identifier, variables_of
 from ..kinds import CompileError
 from ..lists import Finding, Reading, TypeName, read_machine
 from ..model import Machine
@@ -52,7 +52,11 @@ class Built(NamedTuple):
 
 
 def read_content(
-    lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured", axis_type: TypeName | None = None
+    lists: str | os.PathLike[str],
+    cycle_time: float,
+    naming: Naming = "structured",
+    axis_type: TypeName | None = None,
+    types: Types = "own",
 ) -> Built:
     """Read and compile the lists of a machine.
 
@@ -78,7 +82,7 @@ def read_content(
         naming=naming,
         generated=generation_date(),
     )
-    variables = variables_of(machine, naming, cycle_time)
+    variables = variables_of(machine, naming, cycle_time, types)
     return Built(reading, compiled, variables, description, *packed_lists(reading))
 
 

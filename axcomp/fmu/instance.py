@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from ..interface import ERROR_CALL, TYPE_NAMES, Controls, Slot, Value, every_slot
+from ..interface import ERROR_CALL, TYPE_NAMES, Controls, Slot, Value, every_slot, whole
 from ..kernel import ERROR_UPDATE
 from ..kinds import Severity
 from ..lists import read_machine
@@ -104,10 +104,12 @@ class Instance:
         records = (runtime.inputs, runtime.outputs, self.controls)
         count = len(runtime.inputs.volumetric)
         for reference, declaration, slot in every_slot(len(runtime.machine.axes), *records, volumetrics=count):
-            name = TYPE_NAMES[type(declaration.start)]
-            self._readable[name][reference] = slot
+            name, place = TYPE_NAMES[type(declaration.start)], slot
+            if self._interface.types == "real" and name in AS_REAL:
+                name, place = "Real", slot.as_real(AS_REAL[name])
+            self._readable[name][reference] = place
             if declaration.causality != "output":
-                self._settable[name][reference] = slot
+                self._settable[name][reference] = place
 
     # Reports
 
@@ -274,5 +276,11 @@ class Instance:
         self._stop_time = saved.stop_time
         self._time = saved.time
 
+
+AS_REAL: dict[str, Callable[[float], Value]] = {
+    "Integer": whole,
+    "Boolean": lambda value: not math.isnan(value) and whole(value) != 0,
+}
+"""Type of a variable that is Real in the model description → what a number means there."""
 
 ZEROS: dict[str, Value] = {name: kind() for kind, name in TYPE_NAMES.items()}

@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from ..interface import Naming
+from ..interface import Naming, Types
 from ..lists import TypeName
 from ..model import CYCLE_TIME, fmu_sources
 from ..native import PLATFORMS, CompilerError, compile_library, compiler_of, image_of, image_source, own_platform
@@ -46,6 +46,8 @@ def package_native(
     naming: Naming = "structured",
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
+    types: Types = "own",
+    with_lists: bool = True,
 ) -> Built:
     """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
 
@@ -63,6 +65,10 @@ def package_native(
         Those of ``PLATFORMS`` that get a library; none: the one this Python runs on.
     axis_type : str or None
         As in ``read_machine``.
+    types : str
+        ``own``, or ``real``: Real instead of Boolean and Integer, for importers that take everything as Real.
+    with_lists : bool
+        False: of the lists only the tables that were compiled from them go into the FMU.
 
     Raises
     ------
@@ -71,8 +77,8 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type)
-    files = {f"resources/{name}": data for name, data in content.lists.items()}
+    content = read_content(lists, cycle_time, naming, axis_type, types)
+    files = {f"resources/{name}": data for name, data in content.lists.items()} if with_lists else {}
     files.update(_libraries(platforms or (own_platform(),)))
     description = replace(
         content.description,
@@ -80,7 +86,7 @@ def package_native(
         source_files=(*SOURCES, TABLES_SOURCE),
     )
     guid = _guid(content)
-    image = image_of(content.compiled, guid, content.findings)
+    image = image_of(content.compiled, guid, content.findings, real_only=types == "real")
     files[f"resources/{IMAGE}"] = image
     files.update((f"sources/{name}", _source(name)) for name in (*SOURCES, *HEADERS))
     files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..interface import Naming, Variable
+from ..interface import Naming, Types, Variable
 from ..lists import TypeName
 from ..model import CYCLE_TIME, fmu_sources
 from .archive import BuildError, content_guid, file_bytes, write_fmu
@@ -27,6 +27,7 @@ def package_axcomp(
     naming: Naming = "structured",
     external_tool: bool = True,
     axis_type: TypeName | None = None,
+    types: Types = "own",
 ) -> Built:
     """Write the FMU of a machine that runs in Python; parameters as in ``package_native``.
 
@@ -38,8 +39,8 @@ def package_axcomp(
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type)
-    interface = Interface.of(content.machine, content.start, cycle_time, axis_type)
+    content = read_content(lists, cycle_time, naming, axis_type, types)
+    interface = Interface.of(content.machine, content.start, cycle_time, axis_type, types)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)

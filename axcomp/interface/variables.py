@@ -7,7 +7,7 @@ of axis i; an identifier never changes its meaning, so a reference means the sam
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 from ..kernel import Inputs, Outputs
@@ -19,6 +19,9 @@ from .variable import BLOCK, Causality, Value, Variability, Variable
 
 Naming = Literal["structured", "flat"]
 """``X.leadscrew.correction`` or ``X_leadscrew_correction``."""
+
+Types = Literal["own", "real"]
+"""Of the variables: each its own, or Real instead of Boolean and Integer."""
 
 MACHINE_BLOCK = 0
 AXIS_BLOCK = 1  # … 32
@@ -163,7 +166,7 @@ AXIS_DECLARATIONS = (*OF_AXIS, *_of_kinds())
 
 
 def variables_of(
-    machine: Machine, naming: Naming = "structured", cycle_time: float = CYCLE_TIME
+    machine: Machine, naming: Naming = "structured", cycle_time: float = CYCLE_TIME, types: Types = "own"
 ) -> tuple[Variable, ...]:
     """Return the variables of a machine's FMU: those of the machine, then axis by axis.
 
@@ -175,6 +178,8 @@ def variables_of(
         ``structured`` (``X.leadscrew.correction``) or ``flat`` (``X_leadscrew_correction``).
     cycle_time : float
         Start value of the parameter of that name, s.
+    types : str
+        ``own``, or ``real``: Booleans and Integers are Real, for importers that take everything as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
     every_axis = list(enumerate(zip(machine.axes, _prefixes(machine, naming), strict=True)))
@@ -210,6 +215,8 @@ def variables_of(
             )
     for one in machine.volumetric:
         variables += _of_volumetric(machine, one, inputs, naming)
+    if types == "real":
+        variables = [v if isinstance(v.start, str) else replace(v, start=float(v.start)) for v in variables]
     return tuple(variables)
 
 

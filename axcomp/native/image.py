@@ -16,17 +16,18 @@ from .places import layout
 
 MAGIC = b"AXCOMPT2"
 HEADER_BEFORE_CHECK = struct.Struct("<8sIHHI")
-HEADER_AFTER_CHECK = struct.Struct("<40sdI228s")
+HEADER_AFTER_CHECK = struct.Struct("<40sdHH228s")
 SAID = 227
 """Bytes of the first error that an image tells."""
 WORDS_A_LINE = 6
 
 
-def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) -> bytes:
+def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = (), *, real_only: bool = False) -> bytes:
     """Return the image of tables.
 
     ``guid``: that of the modelDescription.xml they belong to, at most 39 characters; ``findings``: what there was to
     say about their lists: with errors among them ``reload`` refuses the image, as it refuses lists (semantics §2).
+    ``real_only``: that model description calls Booleans and Integers Real.
     """
     errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     # Not the folder: an FMU is the same wherever it is built.
@@ -39,7 +40,9 @@ def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) ->
     body += b"".join(_bytes_of(volumetric) for volumetric in volumetrics)
     body += struct.pack(f"<{len(pool)}d", *pool)
     before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(pool))
-    checked = HEADER_AFTER_CHECK.pack(guid.encode()[:40], tables.cycle_time, len(errors), said) + body
+    checked = (
+        HEADER_AFTER_CHECK.pack(guid.encode()[:40], tables.cycle_time, min(len(errors), 0xFFFF), real_only, said) + body
+    )
     return before + struct.pack("<I", zlib.crc32(checked)) + checked
 
 

@@ -80,6 +80,7 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
     lists->identity = header.check;
     memcpy(lists->guid, header.guid, sizeof lists->guid);
     lists->found = header.errors;
+    lists->real_only = header.real_only != 0;
     memcpy(lists->said, header.said, sizeof lists->said);
     return axcomp_tables_fit(tables, lists->pool, lists->numbers) ? NULL : "its tables contradict themselves";
 }

@@ -5,6 +5,7 @@
 #ifndef AXCOMP_IMAGE_H
 #define AXCOMP_IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -26,7 +27,8 @@ typedef struct {
     uint32_t check;         /* CRC-32 of everything behind it */
     char guid[GUID_LENGTH]; /* of the modelDescription.xml that belongs to it; 0 to its end */
     double cycle_time;      /* s */
-    uint32_t errors;        /* that were found in the lists: `reload` refuses them then */
+    uint16_t errors;        /* that were found in the lists: `reload` refuses them then */
+    uint16_t real_only;     /* the modelDescription.xml calls Booleans and Integers Real */
     char said[SAID_LENGTH]; /* the first of them; 0 to its end */
 } ImageHeader;
 
@@ -36,6 +38,7 @@ typedef struct Lists {
     uint32_t identity;  /* equal for equal tables */
     double cycle_time;   /* s; that of the tables may be set by the host */
     char guid[GUID_LENGTH];
+    bool real_only;        /* Booleans and Integers are set and read as Real */
     uint32_t found;        /* errors in the lists these were made from */
     char said[SAID_LENGTH]; /* the first of them */
     int32_t errors[AXES];  /* of an axis that keeps its old tables when these are taken: why; else 0 */

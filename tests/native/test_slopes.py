@@ -1,4 +1,4 @@
-"""Inputs that go on along their derivatives inside a step: a host with long steps gets what one with short steps gets."""
+"""Inputs that go on along their derivatives inside a step: long steps give what short ones give."""
 
 from __future__ import annotations
 
@@ -133,10 +133,8 @@ def steps_at(fmu: Path, stop: float | None) -> list[Any]:
 def test_steps_back_in_time_and_beyond_the_stop_time_are_refused(
     request: pytest.FixtureRequest, lists: Path, tmp_path: Path, runtime: str, status: int
 ) -> None:
-    if runtime == "native":
-        fmu = request.getfixturevalue("native_fmu")
-    else:
-        fmu = package_axcomp(lists, tmp_path).path
+    native = runtime == "native"
+    fmu = request.getfixturevalue("native_fmu") if native else package_axcomp(lists, tmp_path).path
     *made, texts = in_child(steps_at, fmu, 0.010)
     assert made == [True, status, True, status, True]
     assert any("would go back, the last one ended at 0.004 s" in text for text in texts)
