@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     )
     from .content import PACKAGE as PACKAGE, Built as Built, version as version
     from .description import Description as Description, model_description as model_description
+    from .documentation import accompanying as accompanying
     from .instance import Instance as Instance
     from .native_package import (
         HEADERS as HEADERS,
@@ -36,6 +37,7 @@ else:
         archive="BuildError content_guid file_bytes generation_date write_fmu",
         content="Built PACKAGE version",
         description="Description model_description",
+        documentation="accompanying",
         instance="Instance",
         native_package="HEADERS IMAGE NoCompilerError SOURCES package_native write_image",
         package="package_axcomp write_python_fmu",

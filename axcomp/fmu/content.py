@@ -16,6 +16,7 @@ from ..model import Machine
 from ..runtime import Compiled, compile_tables
 from .archive import BuildError, generation_date
 from .description import Description
+from .documentation import accompanying
 from .packing import packed_lists
 
 NAME = "axcomp"
@@ -44,6 +45,11 @@ class Built(NamedTuple):
     def machine(self) -> Machine:
         """The machine it is of."""
         return self.reading.machine
+
+    def accompanying(self, *, with_tables: bool = True) -> dict[str, bytes]:
+        """Return documentation, licence, icon and terminals by their paths; without tables also without findings."""
+        machine = self.machine if with_tables else None
+        return accompanying(self.description, self.variables, machine, self.findings)
 
     @property
     def findings(self) -> tuple[Finding, ...]:

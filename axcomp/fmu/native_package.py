@@ -92,6 +92,7 @@ def package_native(
     files[f"sources/{TABLES_SOURCE}"] = image_source(image).encode()
     files["sources/config.h"] = CONFIGURATION.encode()
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
+    files.update(content.accompanying(with_tables=with_lists))
     path = output_path(output, f"{NAME}.fmu")
     write_fmu(path, files)
     return content._replace(path=path)

@@ -44,7 +44,8 @@ def package_axcomp(
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)
-    return content._replace(path=write_python_fmu(output, description, content.variables, sources, resources))
+    shown = content.accompanying()
+    return content._replace(path=write_python_fmu(output, description, content.variables, sources, resources, shown))
 
 
 def write_python_fmu(
@@ -53,14 +54,17 @@ def write_python_fmu(
     variables: Sequence[Variable],
     sources: tuple[Path, Path],
     resources: Mapping[str, bytes],
+    shown: Mapping[str, bytes],
 ) -> Path:
-    """Put an FMU together: slave and package, resources, pythonfmu, model description."""
+    """Put an FMU together: slave and package, resources, pythonfmu, model description, and what tools show of it."""
     path = output_path(output, f"{description.name}.fmu")
     module, files = renamed_sources(*sources)
     files = {f"resources/{key}": value for key, value in {**files, **resources}.items()}
     files["resources/slavemodule.txt"] = module.encode()
     files.update(_pythonfmu(description.name))
-    guid = content_guid({**files, "modelDescription.xml": model_description(description, variables, "")})
+    undated = model_description(replace(description, generated=""), variables, "")
+    guid = content_guid({**files, "modelDescription.xml": undated})
+    files.update(shown)
     files["modelDescription.xml"] = model_description(description, variables, guid)
     write_fmu(path, files)
     return path

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..fmu import PACKAGE, BuildError, Description, file_bytes, generation_date, version, write_python_fmu
+from ..fmu import PACKAGE, BuildError, Description, accompanying, file_bytes, generation_date, version, write_python_fmu
 from ..interface import Variable, identifier
 from ..model import fmu_sources
 from . import variables as declared
@@ -68,4 +68,6 @@ def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str],
         capabilities={"needsExecutionTool": external_tool},
     )
     sources = (fmu_sources() / "plant_slave.py", PACKAGE)
-    return write_python_fmu(output, description, variables, sources, {FILE_NAME: file_bytes(Path(model) / FILE_NAME)})
+    resources = {FILE_NAME: file_bytes(Path(model) / FILE_NAME)}
+    shown = accompanying(description, variables)
+    return write_python_fmu(output, description, variables, sources, resources, shown)
