@@ -81,6 +81,17 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         help="X.leadscrew.correction (default) or X_leadscrew_correction",
     )
     parser.add_argument(
+        "--types",
+        choices=("own", "real"),
+        default="own",
+        help="real: Real instead of Boolean and Integer, for importers that take everything as Real",
+    )
+    parser.add_argument(
+        "--no-lists",
+        action="store_true",
+        help="put no list into the FMU, only the tables compiled from them (native FMU only)",
+    )
+    parser.add_argument(
         "--no-external-tool",
         action="store_true",
         help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
@@ -138,9 +149,13 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
             platforms=args.platforms,
             axis_type=args.axis_type,
             name=args.name,
+            types=args.types,
+            with_lists=not args.no_lists,
         )
     if args.platforms:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
+    if args.no_lists:
+        raise BuildError("--no-lists is for the native FMU: the one that runs in Python reads the lists.")
     return package_axcomp(
         lists,
         output,
@@ -149,6 +164,7 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
         external_tool=not args.no_external_tool,
         axis_type=args.axis_type,
         name=args.name,
+        types=args.types,
     )
 
 

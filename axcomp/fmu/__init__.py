@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     )
     from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built
     from .description import Description as Description, model_description as model_description
+    from .documentation import accompanying as accompanying
     from .instance import Instance as Instance
     from .native_package import (
         IMAGE as IMAGE,
@@ -35,6 +36,7 @@ else:
         archive="BuildError content_guid file_bytes generation_date write_fmu",
         content="Built NAME PACKAGE",
         description="Description model_description",
+        documentation="accompanying",
         instance="Instance",
         embedded="HEADERS SOURCES",
         native_package="IMAGE NoCompilerError package_native write_image",

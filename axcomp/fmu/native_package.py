@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from ..interface import Naming
+from ..interface import Naming, Types
 from ..lists import TypeName
 from ..model import CYCLE_TIME
 from ..native import (
@@ -49,6 +49,8 @@ def package_native(
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
     name: str = NAME,
+    types: Types = "own",
+    with_lists: bool = True,
 ) -> Built:
     """Write the FMU of a machine; a folder as output: a file of the model's name in it.
 
@@ -68,6 +70,10 @@ def package_native(
         As in ``read_machine``.
     name : str
         Name and identifier of the model; all that is visible outside its sources begins with it.
+    types : str
+        ``own``, or ``real``: Real instead of Boolean and Integer, for importers that take everything as Real.
+    with_lists : bool
+        False: of the lists only the tables that were compiled from them go into the FMU.
 
     Raises
     ------
@@ -76,18 +82,21 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type, name)
-    files = {f"resources/{name}": data for name, data in content.lists.items()}
+    content = read_content(lists, cycle_time, naming, axis_type, name, types)
+    files = {f"resources/{file}": data for file, data in content.lists.items()} if with_lists else {}
     libraries, note = _libraries(platforms, name)
     files.update(libraries)
     description = replace(
-        content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
+        content.description,
+        capabilities={"needsExecutionTool": False, "canInterpolateInputs": True},
+        source_files=(*SOURCES, TABLES_SOURCE),
     )
     guid = _guid(content)
-    image = image_of(content.compiled, guid, content.findings)
+    image = image_of(content.compiled, guid, content.findings, real_only=types == "real")
     files[f"resources/{IMAGE}"] = image
-    files.update(embedded_sources(content, guid))
+    files.update(embedded_sources(content, guid, real_only=types == "real"))
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
+    files.update(content.accompanying(with_tables=with_lists))
     path = output_path(output, f"{name}.fmu")
     write_fmu(path, files)
     return content._replace(path=path, note=note)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .companions import fmu_sources, machine_path, models
+from .companions import fmu_sources, licence, machine_path, models
 from .curve import Curve
 from .delaunay import Triangulation, triangulate, width
 from .grid import Grid, Scatter
@@ -84,6 +84,7 @@ __all__ = [
     "is_grid",
     "jump_of",
     "largest",
+    "licence",
     "machine_path",
     "models",
     "shown",

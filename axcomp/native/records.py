@@ -56,7 +56,8 @@ def size_of(cls: Hashable) -> int:
 
 def record_bytes(record: Any) -> bytes:
     """Return the fields of a record: little-endian, without gaps."""
-    return struct.pack("<" + _format(type(record)), *_numbers(record))
+    cls: Hashable = type(record)
+    return struct.pack("<" + _format(cls), *_numbers(record))
 
 
 def _numbers(record: Any) -> Iterator[float]:

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from .. import __version__
-from ..fmu import PACKAGE, BuildError, Description, file_bytes, generation_date, write_python_fmu
+from ..fmu import PACKAGE, BuildError, Description, accompanying, file_bytes, generation_date, write_python_fmu
 from ..interface import Variable, identifier
 from ..model import fmu_sources
 from . import variables as declared
@@ -69,4 +69,6 @@ def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str],
         capabilities={"needsExecutionTool": external_tool},
     )
     sources = (fmu_sources() / "plant_slave.py", PACKAGE)
-    return write_python_fmu(output, description, variables, sources, {FILE_NAME: file_bytes(Path(model) / FILE_NAME)})
+    resources = {FILE_NAME: file_bytes(Path(model) / FILE_NAME)}
+    shown = accompanying(description, variables)
+    return write_python_fmu(output, description, variables, sources, resources, shown)

@@ -5,6 +5,7 @@
 
 #include "fmi2.h"
 #include "instance.h"
+#include "layout.h"
 #if !defined(AXCOMP_EMBEDDED)
 #include "lists.h"
 #endif
@@ -149,6 +150,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component component, f
         return axcomp_say(instance, fmi2Error, "fmi2SetupExperiment: start and stop time do not fit");
     }
     instance->memory.start_time = start;
+    instance->memory.stop_time = stop_defined ? stop : HUGE_VAL;
     return fmi2OK;
 }
 
@@ -170,6 +172,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component compo
     }
     axcomp_preview_outputs(instance);
     instance->memory.phase = STEPPING;
+    instance->memory.time = instance->memory.start_time;
     return fmi2OK;
 }
 
@@ -205,7 +208,17 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component component, fmi2Real t
         return axcomp_say(instance, fmi2Error,
                           "fmi2DoStep: time and step size must be finite, and the step not negative");
     }
-    return axcomp_advance(instance, time + step);
+    const Memory *memory = &instance->memory;
+    double tolerance = AXCOMP_ON_INSTANT * instance->tables.cycle_time; /* hosts add up their steps */
+    if (time < memory->time - tolerance) {
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step from %g s would go back, the last one ended at %g s",
+                          time, memory->time);
+    }
+    if (time + step > memory->stop_time + tolerance) {
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step to %g s goes beyond the stop time, %g s",
+                          time + step, memory->stop_time);
+    }
+    return axcomp_advance(instance, time, time + step);
 }
 
 /* ---- What this FMU does not have ---- */
@@ -218,17 +231,6 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetDirectionalDerivative)(fmi2Component com
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed, (void)sensitivity;
     Instance *instance = (Instance *)component;
     return instance == NULL ? fmi2Error : axcomp_say(instance, fmi2Error, "this FMU has no directional derivatives");
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component component,
-                                                              const fmi2ValueReference references[], size_t count,
-                                                              const fmi2Integer orders[], const fmi2Real values[])
-{
-    (void)references, (void)orders, (void)values;
-    Instance *instance = (Instance *)component;
-    return instance == NULL ? fmi2Error
-        : count == 0        ? fmi2OK
-                            : axcomp_say(instance, fmi2Error, "this FMU does not interpolate its inputs");
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealOutputDerivatives)(fmi2Component component,

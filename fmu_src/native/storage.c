@@ -12,13 +12,13 @@
 #define AXCOMP_STATES 4 /* that can be saved at a time */
 #endif
 
-/* Bytes of the arrays, of which the state's are there twice; as in memory.c. */
+/* Bytes of the arrays, of which the state's are there twice, the inputs' three times; as in memory.c. */
 #define STATE_SIZE                                                                                                     \
     (AXCOMP_AXES * (sizeof(AxisMotion) + sizeof(AxisState)) + AXCOMP_VOLUMETRICS * sizeof(VolumetricState)              \
      + AXCOMP_LINES * sizeof(double))
 #define OTHER_SIZE                                                                                                     \
-    (AXCOMP_AXES * (sizeof(AxisInputs) + sizeof(AxisOutputs))                                                          \
-     + AXCOMP_VOLUMETRICS * (sizeof(VolumetricInputs) + sizeof(VolumetricOutputs)) + sizeof(double))
+    (AXCOMP_AXES * (3u * sizeof(AxisInputs) + sizeof(AxisOutputs))                                                     \
+     + AXCOMP_VOLUMETRICS * (3u * sizeof(VolumetricInputs) + sizeof(VolumetricOutputs)) + sizeof(double))
 
 /* Numbers of the largest alignment that is needed. */
 enum {
@@ -98,7 +98,7 @@ Instance *axcomp_new_instance(const char *name)
 bool axcomp_give_arrays(Instance *instance)
 {
     const Shape *shape = &instance->shape;
-    instance->block = calloc(1, 2u * axcomp_state_size(shape) + axcomp_inputs_size(shape) + axcomp_outputs_size(shape));
+    instance->block = calloc(1, axcomp_block_size(shape));
     if (instance->block != NULL) {
         axcomp_place_arrays(instance);
     }
