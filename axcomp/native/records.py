@@ -56,7 +56,7 @@ def size_of(cls: Hashable) -> int:
 
 def record_bytes(record: Any) -> bytes:
     """Return the fields of a record: little-endian, without gaps."""
-    cls: Hashable = type(record)
+    cls: Any = type(record)
     return struct.pack("<" + _format(cls), *_numbers(record))
 
 
