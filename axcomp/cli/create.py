@@ -10,7 +10,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from ..fit import FITS, Creation, Fit, Options, create, fit_of
+from ..fit import DROP, FITS, KEEP, REPORT, Creation, Fit, Options, create, fit_of
 from ..measurement import MeasurementError, joined
 
 
@@ -41,6 +41,12 @@ def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], fit: t
     parser.add_argument("--into", type=Path, required=True, metavar="LIST", help=fit.into)
     parser.add_argument("--output", type=Path, metavar="FILE", help="write there instead")
     parser.add_argument("--dry-run", action="store_true", help="write nothing")
+    parser.add_argument(
+        "--outliers",
+        choices=(REPORT, DROP, KEEP),
+        default=REPORT,
+        help="readings that stand apart: stop and say so (default), leave them out, or let them count",
+    )
     for option, how in fit.arguments.items():
         parser.add_argument(f"--{option}", **how)
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draw measurement, table and what is left")

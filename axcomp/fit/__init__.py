@@ -16,7 +16,7 @@ if TYPE_CHECKING:
         Creation as Creation,
     )
     from .crosstalk import AccelerationTests as AccelerationTests
-    from .driver import Fit as Fit, Options as Options
+    from .driver import DROP as DROP, KEEP as KEEP, REPORT as REPORT, Fit as Fit, Options as Options
     from .friction import FrictionReadings as FrictionReadings
     from .hat_functions import hats as hats
     from .plane import Flatness as Flatness
@@ -32,7 +32,7 @@ else:
         axis_list="AxisList",
         creation="CannotCreateError Creation LEFT_OUT MEASURED PREDICTED",
         crosstalk="AccelerationTests",
-        driver="Fit Options",
+        driver="DROP Fit KEEP Options REPORT",
         friction="FrictionReadings",
         hat_functions="hats",
         plane="Flatness",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -98,6 +98,10 @@ class Creation:
     def notes(self) -> tuple[str, ...]:
         """What else should be known."""
         return self.report.notes
+
+    def noted(self, *notes: str) -> Creation:
+        """Return the same with notes in front of the others."""
+        return replace(self, report=self.report._replace(notes=(*notes, *self.report.notes)))
 
     def write(self, path: str | Path | None = None) -> list[Path]:
         """Write everything where it was read, or the list alone elsewhere, whole or not at all; return what was."""

@@ -14,7 +14,14 @@ if TYPE_CHECKING:
         Columns as Columns,
         MeasurementError as MeasurementError,
     )
-    from .iso230 import PARAMETERS as PARAMETERS, SYMBOLS as SYMBOLS, Iso230Result as Iso230Result, evaluate as evaluate
+    from .iso230 import (
+        PARAMETERS as PARAMETERS,
+        SYMBOLS as SYMBOLS,
+        Iso230Result as Iso230Result,
+        evaluate as evaluate,
+        evaluate_robustly as evaluate_robustly,
+    )
+    from .outliers import Outlier as Outlier, find_outliers as find_outliers
     from .positioning import (
         TARGET_DIGITS as TARGET_DIGITS,
         Positioning as Positioning,
@@ -28,7 +35,8 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         columns="ANGLES Column Columns LENGTHS MeasurementError",
-        iso230="Iso230Result PARAMETERS SYMBOLS evaluate",
+        iso230="Iso230Result PARAMETERS SYMBOLS evaluate evaluate_robustly",
+        outliers="Outlier find_outliers",
         positioning="Positioning TARGET_DIGITS angular read_positioning unit_of",
         readings="RUN Readings joined",
         uncertainty="Conditions",

@@ -5,7 +5,7 @@ Deviations are *actual − target* in the unit that small values are shown in: �
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
-from ..model import shown
+from ..model import shown, symbol
 from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, read_columns
+from .outliers import Outlier, find_outliers
 from .readings import Readings, whole_runs
 from .renishaw import is_rtl, read_rtl
 
@@ -67,6 +68,24 @@ class Positioning(Readings):
         deviations = np.full((2, len(targets), len(runs)), np.nan)
         deviations[(self.directions < 0).astype(int), target, run] = self.deviations
         return targets, runs, deviations
+
+    def outliers(self) -> tuple[Outlier, ...]:
+        """Return the readings that stand apart from those of the same target and direction."""
+        targets, target = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
+        down = self.directions < 0
+
+        def named(i: int) -> str:
+            return f"target {self.targets[i]:g} {symbol(self.unit)} {'↓' if down[i] else '↑'}"
+
+        runs, over = 2 * self.runs + down, np.column_stack([down, self.targets])
+        found = find_outliers(
+            target + len(targets) * down, runs, self.deviations, named, self.deviation_unit, over=over
+        )
+        return tuple(replace(one, run=int(self.runs[one.place])) for one in found)
+
+    def without(self, outliers: Sequence[Outlier]) -> Positioning:
+        """Return the measurement without some readings."""
+        return self.only(~np.isin(np.arange(len(self.runs)), [one.place for one in outliers]))
 
     def with_deviations(self, deviations: Array) -> Positioning:
         """Return the measurement with other deviations, (n,)."""
