@@ -160,8 +160,8 @@ class Fit(ABC, Generic[R, T]):
 
     @staticmethod
     @abstractmethod
-    def read(path: str | Path) -> R:
-        """Read a file; MeasurementError if it cannot be read, or a line of it."""
+    def read(path: str | Path, axis: str = "") -> R:
+        """Read a file, of several axes in it that of ``axis``; MeasurementError if it, or a line of it, cannot be."""
 
     @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> Any:
@@ -282,6 +282,7 @@ class Fit(ABC, Generic[R, T]):
             figures=figures,
             labels=self.labels,
             report=report,
+            before=self.target.before(),
             draw=lambda ax: self.draw(ax, table),
         )
 

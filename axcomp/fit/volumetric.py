@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
-from ..model import ERRORS, LETTERS, LINEAR, Volumetric, is_angle, shown
+from ..model import ERRORS, LETTERS, LINEAR, NO_VECTOR, Volumetric, is_angle, shown
 from ..plot import labelled
 from .creation import CannotCreateError, Report
 from .driver import Fit, Option
@@ -52,9 +52,9 @@ class VolumetricFit(Fit[TcpDeviations, Identification]):
         "scatter": {"type": float, "metavar": "µm", "help": "standard deviation of a reading, where it is known"},
         "chain": _of_new("axes from the workpiece to the tool, e.g. YXZ", default="", metavar="LETTERS"),
         "axes": _of_new("logical numbers in that order", type=int, nargs="+"),
-        "workpiece-axes": _of_new("axes that carry it", type=int, default=0),
-        "tool-position": _of_new("place of the tool tip at length 0, mm", type=float, nargs=3, default=(0.0,) * 3),
-        "tool-orientation": _of_new("unit vector to the tip", type=float, nargs=3, default=(0.0,) * 3),
+        "workpiece-axes": _of_new("axes that carry it", type=int),
+        "tool-position": _of_new("place of the tool tip at length 0, mm", type=float, nargs=3),
+        "tool-orientation": _of_new("unit vector to the tip", type=float, nargs=3),
     }
     labels: ClassVar = {
         "largest": "largest distance",
@@ -68,14 +68,19 @@ class VolumetricFit(Fit[TcpDeviations, Identification]):
     def open(cls, path: Path, given: Mapping[str, Any]) -> VolumetricTarget:
         """Open the list; kinematics are given for one that does not exist."""
         chain, numbers = given["chain"].upper(), given["axes"] or []
+        if path.exists():
+            target = VolumetricTarget(path)
+            target.check_kinematics(_given(given, chain, numbers))
+            return target
         if not chain and not numbers:
             return VolumetricTarget(path)
         if not set("XYZ") <= set(chain) <= set(LETTERS) or len(set(chain)) < len(chain) or len(numbers) != len(chain):
             raise ValueError("--chain names X, Y, Z and some of A, B, C once each, --axes as many logical numbers")
         assigned = dict(zip(chain, numbers, strict=True))
         axes = tuple((letter, assigned[letter]) for letter in LETTERS if letter in assigned)
-        position, orientation = tuple(given["tool_position"]), tuple(given["tool_orientation"])
-        new = Volumetric(0, axes, chain, given["workpiece_axes"], tool_position=position, tool_orientation=orientation)
+        position, orientation = (tuple(given[name] or NO_VECTOR) for name in ("tool_position", "tool_orientation"))
+        carrying = given["workpiece_axes"] or 0
+        new = Volumetric(0, axes, chain, carrying, tool_position=position, tool_orientation=orientation)
         return VolumetricTarget(path, new)
 
     def prepare(self) -> None:
@@ -182,6 +187,19 @@ class VolumetricFit(Fit[TcpDeviations, Identification]):
 
 
 FIT = VolumetricFit
+
+
+def _given(given: Mapping[str, Any], chain: str, numbers: Sequence[int]) -> dict[str, Any]:
+    """Return the kinematics that options give, by the field they are of."""
+    found: dict[str, Any] = {"chain": chain} if chain else {}
+    if numbers and chain and len(numbers) == len(chain):
+        found["axes"] = tuple(sorted(zip(chain, numbers, strict=True), key=lambda one: LETTERS.find(one[0])))
+    elif numbers:
+        raise ValueError("--axes gives as many logical numbers as --chain names axes")
+    for name in ("workpiece_axes", "tool_position", "tool_orientation"):
+        if given[name] is not None:
+            found[name] = tuple(given[name]) if name != "workpiece_axes" else given[name]
+    return found
 
 
 def _errors(found: Identification) -> list[dict[str, Any]]:

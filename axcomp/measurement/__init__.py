@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
+    from .before_after import BeforeAfter as BeforeAfter
     from .columns import (
         ANGLES as ANGLES,
         LENGTHS as LENGTHS,
         Column as Column,
         Columns as Columns,
         MeasurementError as MeasurementError,
+        SeveralAxesError as SeveralAxesError,
+        of_axis as of_axis,
     )
     from .iso230 import (
         PARAMETERS as PARAMETERS,
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
         Positioning as Positioning,
         angular as angular,
         read_positioning as read_positioning,
+        read_positionings as read_positionings,
         unit_of as unit_of,
     )
     from .readings import RUN as RUN, Readings as Readings, joined as joined
@@ -34,10 +38,11 @@ if TYPE_CHECKING:
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
-        columns="ANGLES Column Columns LENGTHS MeasurementError",
+        before_after="BeforeAfter",
+        columns="ANGLES Column Columns LENGTHS MeasurementError SeveralAxesError of_axis",
         iso230="Iso230Result PARAMETERS SYMBOLS evaluate evaluate_robustly",
         outliers="Outlier find_outliers",
-        positioning="Positioning TARGET_DIGITS angular read_positioning unit_of",
+        positioning="Positioning TARGET_DIGITS angular read_positioning read_positionings unit_of",
         readings="RUN Readings joined",
         uncertainty="Conditions",
     )

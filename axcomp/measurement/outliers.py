@@ -81,6 +81,7 @@ def find_outliers(
     groups, runs : array of int, shape (n,)
         Readings of one group are of the same; what those of one run have in common does not count.
     values : array, shape (n,)
+        In ``unit``.
     named : callable
         Says where the reading of an index was taken.
     unit : str

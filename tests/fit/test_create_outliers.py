@@ -18,7 +18,7 @@ def with_one_off(series, place, size):
 
 
 def tables(series, target, outliers):
-    """Return the table in µm; all outliers are left out by hand where that is asked for, which saves the checks by runs."""
+    """Return the table in µm; outliers are left out by hand, which saves the checks by runs."""
     if outliers == "drop":
         series = series.without(series.outliers())
     fit = fit_of("leadscrew")(series, target, Options())
@@ -51,7 +51,7 @@ def test_what_is_not_found_moves_the_table_by_less_than_twice_its_uncertainty(tm
         assert moved <= 2.0 * 2.0 / np.sqrt(5) + 0.1
 
 
-def test_with_one_run_the_neighbours_tell(tmp_path):
+def test_with_one_run_the_neighbours_tell():
     targets = np.linspace(0.0, 400.0, 21)
     series = measured(targets, {d: 10.0 * np.sin(targets / 90.0) for d in (1, -1)}, runs=1, scatter=0.5)
     assert not series.outliers()
