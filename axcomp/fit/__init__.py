@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from .target_list import TargetList as TargetList
     from .thinning import closest as closest, deviation as deviation, fewest as fewest
     from .volumetric_basis import Sought as Sought, sought_errors as sought_errors
-    from .volumetric_identification import Identifier as Identifier, TcpDeviations as TcpDeviations
+    from .volumetric_identification import Identifier as Identifier
+    from .volumetric_readings import TcpDeviations as TcpDeviations
     from .volumetric_target import VolumetricTarget as VolumetricTarget
 else:
     __all__, __getattr__, __dir__ = face(
@@ -40,6 +41,7 @@ else:
         target_list="TargetList",
         thinning="closest deviation fewest",
         volumetric_basis="Sought sought_errors",
-        volumetric_identification="Identifier TcpDeviations",
+        volumetric_identification="Identifier",
+        volumetric_readings="TcpDeviations",
         volumetric_target="VolumetricTarget",
     )

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -212,6 +212,12 @@ class Fit(ABC, Generic[R, T]):
     def outliers(self) -> Sequence[Outlier]:
         """Return readings that stand apart from their like."""
         return ()
+
+    def moved(self, other: Self) -> float:
+        """Return how far the table is from that of a fit of some of the readings, at most, in ``small``."""
+        mine, its = (one.table(one.means(one.readings)) for one in (self, other))
+        means = other.means(other.readings)
+        return float(np.max(np.abs(self.removed(mine, means) - other.removed(its, means))))
 
     def points(self, table: T) -> int:
         """Return the number of entries."""

@@ -67,9 +67,7 @@ def create(kind: str, readings: Readings, target: Any, options: Options | None =
 
 def _stopped(fit: Fit[Any, Any], without: Fit[Any, Any], count: str, named: str) -> str:
     """Say which readings stand apart and what they do to the table and the figures."""
-    both = [one.table(one.means(one.readings)) for one in (fit, without)]
-    means = without.means(without.readings)
-    moved = float(np.max(np.abs(fit.removed(both[0], means) - without.removed(both[1], means))))
+    moved = fit.moved(without)
     with_them, without_them = (one.figures(one.measured(one.readings)) for one in (fit, without))
     figures = ", ".join(
         f"{label} {with_them[name]:.1f} / {without_them[name]:.1f}"

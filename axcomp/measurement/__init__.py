@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         MeasurementError as MeasurementError,
         SeveralAxesError as SeveralAxesError,
         of_axis as of_axis,
+        read_columns as read_columns,
     )
     from .iso230 import (
         PARAMETERS as PARAMETERS,
@@ -33,16 +34,16 @@ if TYPE_CHECKING:
         read_positionings as read_positionings,
         unit_of as unit_of,
     )
-    from .readings import RUN as RUN, Readings as Readings, joined as joined
+    from .readings import RUN as RUN, Readings as Readings, joined as joined, whole_runs as whole_runs
     from .uncertainty import Conditions as Conditions
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         before_after="BeforeAfter",
-        columns="ANGLES Column Columns LENGTHS MeasurementError SeveralAxesError of_axis",
+        columns="ANGLES Column Columns LENGTHS MeasurementError SeveralAxesError of_axis read_columns",
         iso230="Iso230Result PARAMETERS SYMBOLS evaluate evaluate_robustly",
         outliers="Outlier find_outliers",
         positioning="Positioning TARGET_DIGITS angular read_positioning read_positionings unit_of",
-        readings="RUN Readings joined",
+        readings="RUN Readings joined whole_runs",
         uncertainty="Conditions",
     )

@@ -130,12 +130,15 @@ _Reading = tuple[str, int, dict[str, float]]
 """Axis, line and cells by column."""
 
 
-def read_columns(path: Path, wanted: Sequence[Column], axis: str = "") -> Columns:
+def read_columns(
+    path: Path, wanted: Sequence[Column], axis: str = "", needed: Sequence[Column] | None = None
+) -> Columns:
     """Read a table; MeasurementError if a column is missing, unknown or given twice, or a cell is no number.
 
-    ``axis``: the one that is meant where the file has several.
+    ``axis``: the one that is meant where the file has several; ``needed``: the columns of a file without names, where
+    they are not those that are not optional.
     """
-    return of_axis(read_all_columns(path, wanted), axis, str(path))
+    return of_axis(read_all_columns(path, wanted, needed), axis, str(path))
 
 
 Measured = TypeVar("Measured")
@@ -157,9 +160,12 @@ def _axis_of(table: Any) -> str:
     return str(table.details.get("axis", "")) or str(table.details.get("sheet", ""))
 
 
-def read_all_columns(path: Path, wanted: Sequence[Column]) -> tuple[Columns, ...]:
+def read_all_columns(
+    path: Path, wanted: Sequence[Column], needed: Sequence[Column] | None = None
+) -> tuple[Columns, ...]:
     """Read every table of a file, see ``read_columns``; one for each axis."""
     known = _known(wanted)
+    needed = [column for column in wanted if not column.optional] if needed is None else needed
 
     def is_header(cells: Sequence[str]) -> bool:
         return any(_name(cell, known)[0] in known for cell in cells)
@@ -175,7 +181,7 @@ def read_all_columns(path: Path, wanted: Sequence[Column]) -> tuple[Columns, ...
         for row in sheet.rows:
             if row is sheet.rows[0] and (_is_named(row, known) or not places):
                 named = _is_named(row, known) or all(number(cell) is None for cell in row.cells)
-                cells = row.cells if named else [column.name for column in wanted if not column.optional]
+                cells = row.cells if named else [column.name for column in needed]
                 places = _header(sheet.file, row.line, cells, wanted)
                 if named:
                     continue

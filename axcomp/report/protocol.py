@@ -25,7 +25,8 @@ _PRINT = """<style>
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; } h1 { font-size: 15pt; margin: 0 0 4mm; }
   h2 { font-size: 12pt; margin: 6mm 0 2mm; padding-top: 2mm; break-after: avoid; }
   h3 { font-size: 10.5pt; break-after: avoid; }
-  table { font-size: 8.5pt; break-inside: avoid; } th, td { padding: 0.6mm 2mm; } tr, img, .sign { break-inside: avoid; }
+  table { font-size: 8.5pt; break-inside: avoid; }
+  th, td { padding: 0.6mm 2mm; } tr, img, .sign { break-inside: avoid; }
   thead { display: table-header-group; } .wide { overflow: visible; } img { max-height: 210mm; object-fit: contain; }
 }
 .fields td:first-child { color: #4b5560; } .sum { font-family: ui-monospace, monospace; word-break: break-all; }
