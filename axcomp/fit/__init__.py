@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .thinning import closest as closest, deviation as deviation, fewest as fewest
     from .volumetric_basis import Sought as Sought, sought_errors as sought_errors
     from .volumetric_identification import Identifier as Identifier
+    from .volumetric_plan import Plan as Plan, plan_volumetric as plan_volumetric, rows_of as rows_of
     from .volumetric_readings import TcpDeviations as TcpDeviations
     from .volumetric_target import VolumetricTarget as VolumetricTarget
 else:
@@ -42,6 +43,7 @@ else:
         thinning="closest deviation fewest",
         volumetric_basis="Sought sought_errors",
         volumetric_identification="Identifier",
+        volumetric_plan="Plan plan_volumetric rows_of",
         volumetric_readings="TcpDeviations",
         volumetric_target="VolumetricTarget",
     )

@@ -203,7 +203,7 @@ class VolumetricFit(Fit[TcpDeviations, Identification]):
         errors = _errors(table)
         sample = self.readings.positions[:: -(-len(self.readings.runs) // _SAMPLE)]
         tip = self.identifier.tip_uncertainty(table, sample, float(np.median(self.readings.tool_lengths)))
-        known = f"The modelled tip is known within {np.median(tip):.2f} µm, {tip.max():.2f} µm at worst (k = 2)."
+        known = f"The modelled tip is known within {np.median(tip):.2f} µm, {tip.max():.2f} µm at worst (95 %)."
         details = {
             "errors": errors,
             "redundant": [{"name": r.name, "part": r.part, "others": list(r.others)} for r in table.redundancies],

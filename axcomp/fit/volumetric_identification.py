@@ -219,6 +219,11 @@ class Identifier:
         return columns
 
     @property
+    def columns(self) -> Array:
+        """What each value, those of stations and spheres first, does to the readings, (n, 3, values)."""
+        return self._columns
+
+    @property
     def measured(self) -> Array:
         """Measured minus modelled readings without any error that is sought, (n, 3), µm."""
         return -self._without * MICRO
@@ -247,7 +252,7 @@ class Identifier:
         values, residuals = self._solve(rows, columns, kept, lengths, root, held)
         scatter = self._scatter or float(np.sqrt(np.sum(residuals**2) / degrees))
         uncertain = scatter / MICRO * np.linalg.norm(_inverse(root), axis=1) / lengths
-        limits = self._limits()[kept]
+        limits = self.limits[kept]
         if (uncertain > limits).any():
             regularized = tuple(
                 dict.fromkeys(
@@ -324,7 +329,8 @@ class Identifier:
         unknown = [(one.name, 0.0) for one in self.observations.unknowns for _ in one.values]
         return unknown + [(sought.name, float(node)) for sought in self.sought for node in sought.nodes]
 
-    def _limits(self) -> Array:
+    @property
+    def limits(self) -> Array:
         """Return the standard deviation beyond which a value is held near 0, mm or rad; none of stations."""
         unknown = [np.inf for one in self.observations.unknowns for _ in one.values]
         kinds = [
@@ -359,17 +365,14 @@ class Identifier:
         return -self.observations.residuals(tips) * MICRO
 
     def tip_uncertainty(self, found: Identification, positions: Array, tool_length: float = 0.0) -> Array:
-        """Return the expanded uncertainty (k = 2) of the modelled tip at positions (n, 6), root of three squares, µm.
+        """Return the radius around the modelled tip that the true one is in with 95 %, at positions (n, 6), µm.
 
         Where all readings come from stations or spheres, what moves all places alike as a rigid body does not count.
         """
-        slopes = self.tip_slopes(positions, tool_length)
         nodes = {label: k for k, label in enumerate((s.name, float(node)) for s in self.sought for node in s.nodes)}
-        slopes = slopes[:, :, [nodes[label] for label in found.kept]]
-        if not (self._measurement.kinds == DEVIATION).any():
-            slopes = without_rigid(slopes, positions[:, :3])
-        variances = np.einsum("ndk,kl,ndl->n", slopes, found.covariance, slopes)
-        return np.asarray(COVERAGE * MICRO * np.sqrt(np.maximum(variances, 0.0)))
+        slopes = self.tip_slopes(positions, tool_length)[:, :, [nodes[label] for label in found.kept]]
+        free = not (self._measurement.kinds == DEVIATION).any()
+        return radius_of(without_rigid(slopes, positions[:, :3]) if free else slopes, found.covariance)
 
     def tip_slopes(self, positions: Array, tool_length: float = 0.0) -> Array:
         """Return what each value does to the tip at positions (n, 6), (n, 3, values), mm per mm or rad."""
@@ -384,6 +387,17 @@ class Identifier:
                 effect = self._model.derivatives(places, lengths, base, [ERRORS.index(sought.name)])[:, :, 0]
             columns.append(effect[:, :, None] * sought.weights(places)[:, None, :])
         return np.concatenate(columns, axis=2)
+
+
+def radius_of(slopes: Array, covariance: Array) -> Array:
+    """Return the radius that holds 95 % of what parameters of a covariance do to tips, by slopes (n, 3, k), in µm.
+
+    |v|² of a normal v with covariance S has the mean tr S and the variance 2 tr S²; mean + 2 standard deviations is the
+    95 % point within 1 % for one direction as for three alike.
+    """
+    spread = np.einsum("ndk,kl,nel->nde", slopes, covariance, slopes, optimize=True)
+    mean, square = np.einsum("ndd->n", spread), np.einsum("nde,nde->n", spread, spread)
+    return np.asarray(MICRO * np.sqrt(np.maximum(mean + 2.0 * np.sqrt(2.0 * square), 0.0)))
 
 
 def without_rigid(slopes: Array, points: Array) -> Array:
