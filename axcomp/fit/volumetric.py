@@ -16,9 +16,10 @@ from ..model import ERRORS, LETTERS, LINEAR, NO_VECTOR, Volumetric, is_angle, sh
 from ..plot import labelled
 from .creation import CannotCreateError, Report
 from .driver import Fit, Option
-from .volumetric_identification import HELD, NODES_MAX, Identification, Identifier
-from .volumetric_observations import MICRO
+from .volumetric_algebra import MICRO
+from .volumetric_identification import HELD, NODES_MAX, Identifier
 from .volumetric_readings import TcpDeviations
+from .volumetric_result import Identification
 from .volumetric_target import VolumetricTarget
 
 if TYPE_CHECKING:
@@ -160,6 +161,8 @@ class VolumetricFit(Fit[TcpDeviations, Identification]):
 
     def without(self, run: npt.NDArray[np.bool_]) -> Array:
         """Return what is left of a run by errors identified without it, at the same nodes."""
+        if any(run[one.rows].all() for one in self.identifier.observations.unknowns):
+            raise CannotCreateError("a station was used in one run only: without it nothing is known of its place")
         return self.identifier.left(self.identifier.fit(~run), run)
 
     def compensation(self, table: Identification) -> Volumetric:

@@ -132,7 +132,7 @@ def _nodes(letter: str, at: Array, nodes_max: int) -> tuple[Array, bool]:
 
 def _often(distinct: Array, at: Array) -> Array:
     """Return where it was measured often, with the ends of the axis; none if that is not all over it."""
-    counts = np.array([np.sum(np.abs(at - one) < 10.0**-_DIGITS) for one in distinct])
+    counts = np.unique(np.round(at, _DIGITS), return_counts=True)[1]
     found = distinct[counts >= max(3.0, _OFTEN * len(at))]
     span = float(np.ptp(distinct))
     if len(found) < 3 or np.ptp(found) < _ALL_OVER * span:

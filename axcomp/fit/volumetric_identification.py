@@ -8,18 +8,20 @@ with as many rows as values. (JᵀJ would lose half of the figures where errors 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 from scipy.linalg import solve_triangular
 
 from ..engine import Array, TcpModel
-from ..model import CENTERS, ERRORS, LETTERS, LINEAR, ROTARY, ErrorTable, Triple, Volumetric, is_angle
+from ..model import ERRORS, LETTERS, LINEAR, ROTARY, Volumetric, is_angle
 from .creation import CannotCreateError
-from .volumetric_basis import FULL_TURN, Redundancy, Selection, Sought, sought_errors
-from .volumetric_observations import MICRO, Observations
+from .volumetric_algebra import MICRO, inverse_of, radius_of, triangle, without_rigid
+from .volumetric_basis import Selection, Sought, sought_errors
+from .volumetric_observations import Observations
 from .volumetric_readings import DEVIATION, SPHERE, TcpDeviations
+from .volumetric_result import CENTER_NAMES, Identification
 
 NODES_MAX = 11
 """Nodes of a component error unless more or fewer are asked for."""
@@ -27,80 +29,12 @@ NODES_MAX = 11
 COVERAGE = 2.0
 """Factor k of expanded uncertainties."""
 
-CENTER_NAMES = tuple(name for names in CENTERS for name in names)
 HELD = {"length": 0.1, "angle": 2e-4, "center": 10.0}
 """Standard deviation around 0, mm or rad, of values that readings tell even worse: machines have smaller errors."""
 Places = npt.NDArray[np.int64]
-_BLOCK = 4096
 _ROUNDS = 12
 _SETTLED = 1e-5
 """µm, root mean square, that another step would change."""
-
-
-@dataclass(frozen=True, eq=False)
-class Identification:
-    """Errors that were found.
-
-    Attributes
-    ----------
-    sought : tuple of Sought
-        The errors and their nodes.
-    values, uncertainty : tuple of array, shape (nodes,)
-        For each of them, mm or rad; the expanded uncertainty (k = 2) is 0 where a value was not determined and is 0.
-    redundancies : tuple of Redundancy
-        What the data do not tell apart.
-    regularized : tuple of str
-        Errors that the data tell so badly that they are held near 0 (``HELD``).
-    covariance : array, shape (kept, kept)
-        Of the values that are determined, mm and rad.
-    kept : tuple of (str, float)
-        Error and node of each of these.
-    residuals : array, shape (n, 3)
-        Measured minus modelled deviation, µm.
-    scatter : float
-        Standard deviation of the readings, µm: as given, else from the residuals.
-    degrees_of_freedom : int
-        Readings minus values.
-    unknowns : tuple of (str, array)
-        What was found of stations and spheres, mm: pose (rotation vector, mrad, and shift), place, dead path, centre.
-    """
-
-    sought: tuple[Sought, ...]
-    values: tuple[Array, ...]
-    uncertainty: tuple[Array, ...]
-    redundancies: tuple[Redundancy, ...]
-    regularized: tuple[str, ...]
-    covariance: Array
-    kept: tuple[tuple[str, float], ...]
-    residuals: Array
-    scatter: float
-    degrees_of_freedom: int
-    unknowns: tuple[tuple[str, Array], ...] = ()
-
-    def tables(self) -> tuple[ErrorTable, ...]:
-        """Return the errors as tables; those that are 0 everywhere are left out."""
-        found = []
-        for sought, values in zip(self.sought, self.values, strict=True):
-            if not values.any() or sought.name in CENTER_NAMES:
-                continue
-            if not sought.argument:
-                found.append(ErrorTable(sought.name, (float(values[0]),)))
-                continue
-            nodes, column = sought.nodes, values
-            if sought.periodic:
-                nodes, column = np.append(nodes, nodes[0] + FULL_TURN), np.append(values, values[0])
-            rows = tuple((float(node),) for node in nodes)
-            found.append(ErrorTable(sought.name, tuple(column.tolist()), sought.argument, rows))
-        return tuple(found)
-
-    def centers(self, before: Sequence[Triple]) -> tuple[Triple, ...]:
-        """Return the centres of A, B and C, those that were sought changed, mm."""
-        found = [list(center) for center in before]
-        for sought, values in zip(self.sought, self.values, strict=True):
-            if sought.name in CENTER_NAMES:
-                axis, direction = divmod(CENTER_NAMES.index(sought.name), 3)
-                found[axis][direction] = round(found[axis][direction] + float(values[0]), 7)
-        return tuple((x, y, z) for x, y, z in found)
 
 
 class Identifier:
@@ -161,6 +95,7 @@ class Identifier:
         self.observations = Observations(measurement, self._nominal)
         self.observations.fit_unknowns(tips)
         self._without = self.observations.residuals(tips)
+        self._offset = {sought.name: 0.0 for sought in centers}
         self._fits: dict[bytes, Identification] = {}
         if centers:
             self._move_centers_near(tips)
@@ -168,7 +103,6 @@ class Identifier:
 
     def _move_centers_near(self, tips: Array) -> None:
         """Move the centres about where they are: errors have other levers where they are far off."""
-        self._offset = {sought.name: 0.0 for sought in self.sought if sought.name in CENTER_NAMES}
         columns = [i for i, sought in enumerate(self.sought) if sought.name in CENTER_NAMES]
         for _ in range(3):
             slopes = self.observations.slopes(tips, self._center_effects([self.sought[i].name for i in columns]))
@@ -239,34 +173,32 @@ class Identifier:
         start = [one.values.copy() for one in self.observations.unknowns]
         columns = self._columns[rows].reshape(-1, self._columns.shape[2])
         count = int(np.sum(np.where(self.observations.scalar[rows], 1, 3)))
-        triangle = _triangle(columns)
+        whole = triangle(columns)
         unknowns = [Sought(u.name, "", np.zeros(len(u.values)), rigid=True) for u in self.observations.unknowns]
-        selection = Selection([*unknowns, *self.sought], triangle)
+        selection = Selection([*unknowns, *self.sought], whole)
         kept = selection.kept
         degrees = count - len(kept)
         if degrees < 1:
             raise CannotCreateError(f"{count} readings are not enough for {len(kept)} values of errors")
-        lengths = np.linalg.norm(triangle[:, kept], axis=0)
-        root = _triangle(triangle[:, kept] / lengths)
+        lengths = np.linalg.norm(whole[:, kept], axis=0)
+        root = triangle(whole[:, kept] / lengths)
         held, regularized = np.zeros(len(kept)), ()
-        values, residuals = self._solve(rows, columns, kept, lengths, root, held)
-        scatter = self._scatter or float(np.sqrt(np.sum(residuals**2) / degrees))
-        uncertain = scatter / MICRO * np.linalg.norm(_inverse(root), axis=1) / lengths
+        # What a linear fit would leave says how well values will be told, before anything is moved by it.
+        before = self._left(self._split(self._start(columns)))[rows].ravel()
+        explained = solve_triangular(root, columns[:, kept].T @ before / lengths, trans="T")
+        rest = max(float(before @ before - explained @ explained), 0.0)
+        scatter = self._scatter or float(np.sqrt(rest / degrees))
+        uncertain = scatter / MICRO * np.linalg.norm(inverse_of(root), axis=1) / lengths
         limits = self.limits[kept]
         if (uncertain > limits).any():
-            regularized = tuple(
-                dict.fromkeys(
-                    self._labels()[k][0] for k, u, most in zip(kept, uncertain, limits, strict=True) if u > most
-                )
-            )
+            names = [self._labels()[value][0] for value in kept[uncertain > limits]]
+            regularized = tuple(dict.fromkeys(names))
             # As if each value had been measured to be 0 with the limit as its standard deviation.
             held = np.where(np.isfinite(limits), scatter / MICRO / limits / lengths, 0.0)
-            root = _triangle(np.vstack([root, np.diag(held)]))
-            for one, values_before in zip(self.observations.unknowns, start, strict=True):
-                one.values = values_before.copy()
-            values, residuals = self._solve(rows, columns, kept, lengths, root, held)
-            scatter = self._scatter or float(np.sqrt(np.sum(residuals**2) / degrees))
-        inverse = _inverse(root)
+            root = triangle(np.vstack([root, np.diag(held)]))
+        values, residuals = self._solve(rows, columns, kept, lengths, root, held)
+        scatter = self._scatter or float(np.sqrt(np.sum(residuals[rows] ** 2) / degrees))
+        inverse = inverse_of(root)
         every = np.zeros(columns.shape[1])
         every[kept] = np.linalg.norm(inverse, axis=1) / lengths * scatter / MICRO
         nuisance = columns.shape[1] - sum(map(len, self._split(np.zeros(columns.shape[1]))))
@@ -294,10 +226,8 @@ class Identifier:
         self, rows: npt.NDArray[np.bool_], columns: Array, kept: Places, lengths: Array, root: Array, held: Array
     ) -> tuple[list[Array], Array]:
         """Return values and residuals, measured − modelled, (n, 3), µm; unknowns are changed on the way."""
-        every = np.zeros(columns.shape[1])
+        every = self._start(columns)
         nuisance = columns.shape[1] - int(self._ends[-1] if len(self._ends) else 0)
-        for name, offset in self._offsets():
-            every[nuisance + name] = offset
         residuals = self._left(self._split(every))
         for _ in range(_ROUNDS):
             gradient = columns[:, kept].T @ residuals[rows].ravel() / lengths / MICRO - held * held * (
@@ -313,10 +243,14 @@ class Identifier:
                 break
         return self._split(every), residuals
 
-    def _offsets(self) -> list[tuple[int, float]]:
-        """Return places among the values, and values, of centres where they were moved before."""
-        offsets = getattr(self, "_offset", {})
-        return [(i, offsets[sought.name]) for i, sought in enumerate(self.sought) if sought.name in offsets]
+    def _start(self, columns: Array) -> Array:
+        """Return the values to begin with: 0, and how far centres were moved before."""
+        every = np.zeros(columns.shape[1])
+        nuisance = columns.shape[1] - int(self._ends[-1] if len(self._ends) else 0)
+        for i, sought in enumerate(self.sought):  # centres come first, with one value each
+            if sought.name in self._offset:
+                every[nuisance + i] = self._offset[sought.name]
+        return every
 
     def _split(self, every: Array) -> list[Array]:
         """Return the values of each error that is sought."""
@@ -356,7 +290,7 @@ class Identifier:
         for sought, weight, column in zip(self.sought, self._weights, values, strict=True):
             if sought.name in CENTER_NAMES:
                 axis, direction = divmod(CENTER_NAMES.index(sought.name), 3)
-                moved = float(column[0]) - getattr(self, "_offset", {}).get(sought.name, 0.0)
+                moved = float(column[0]) - self._offset.get(sought.name, 0.0)
                 self._model.centers[axis, direction] += moved
             else:
                 errors[:, ERRORS.index(sought.name)] += weight @ column
@@ -389,28 +323,6 @@ class Identifier:
         return np.concatenate(columns, axis=2)
 
 
-def radius_of(slopes: Array, covariance: Array) -> Array:
-    """Return the radius that holds 95 % of what parameters of a covariance do to tips, by slopes (n, 3, k), in µm.
-
-    |v|² of a normal v with covariance S has the mean tr S and the variance 2 tr S²; mean + 2 standard deviations is the
-    95 % point within 1 % for one direction as for three alike.
-    """
-    spread = np.einsum("ndk,kl,nel->nde", slopes, covariance, slopes, optimize=True)
-    mean, square = np.einsum("ndd->n", spread), np.einsum("nde,nde->n", spread, spread)
-    return np.asarray(MICRO * np.sqrt(np.maximum(mean + 2.0 * np.sqrt(2.0 * square), 0.0)))
-
-
-def without_rigid(slopes: Array, points: Array) -> Array:
-    """Return what parameters do to points (n, 3), (n, 3, k), less the rigid motion of all that is nearest to it."""
-    arms = points - points.mean(axis=0)
-    motions = np.zeros((len(points), 3, 6))
-    motions[:, :, :3] = np.eye(3)
-    for k, axis in enumerate(np.eye(3)):
-        motions[:, :, 3 + k] = np.cross(axis, arms) / max(float(np.abs(arms).max()), 1.0)
-    flat, rigid = slopes.reshape(-1, slopes.shape[2]), motions.reshape(-1, 6)
-    return np.asarray((flat - rigid @ np.linalg.lstsq(rigid, flat, rcond=None)[0]).reshape(slopes.shape))
-
-
 def _all_names(volumetric: Volumetric, spheres: bool) -> list[str]:
     names = [error for error in ERRORS if error[-1] in volumetric.chain]
     if not spheres:
@@ -420,16 +332,3 @@ def _all_names(volumetric: Volumetric, spheres: bool) -> list[str]:
         direction = volumetric.directions[LETTERS.index(letter)]
         names += [f"P{k}{letter}" for k, along in zip(LINEAR, direction, strict=True) if abs(along) < 0.9]
     return names
-
-
-def _triangle(columns: Array) -> Array:
-    """Return R of columns (m, k), block by block."""
-    size = max(_BLOCK, 2 * columns.shape[1])
-    if len(columns) <= size:
-        return np.asarray(np.linalg.qr(columns, mode="r"), dtype=np.float64)
-    parts = [_triangle(columns[k : k + size]) for k in range(0, len(columns), size)]
-    return np.asarray(np.linalg.qr(np.vstack(parts), mode="r"), dtype=np.float64)
-
-
-def _inverse(root: Array) -> Array:
-    return np.asarray(solve_triangular(root, np.eye(len(root))))

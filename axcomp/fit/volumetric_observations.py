@@ -19,10 +19,9 @@ import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from ..engine import Array
-from ..model import shown
+from .volumetric_algebra import MICRO
 from .volumetric_readings import DEVIATION, DISPLACEMENT, LENGTH, POINT, SPHERE, TcpDeviations
 
-MICRO = shown("mm").factor
 _ITERATIONS = 30
 _SETTLED = 1e-9
 

@@ -17,8 +17,8 @@ from ..engine import Array, TcpModel
 from ..measurement import joined
 from ..model import LETTERS, Volumetric
 from .creation import CannotCreateError
-from .volumetric_identification import NODES_MAX, Identifier, radius_of, without_rigid
-from .volumetric_observations import MICRO
+from .volumetric_algebra import MICRO, radius_of, without_rigid
+from .volumetric_identification import NODES_MAX, Identifier
 from .volumetric_readings import DEVIATION, DISPLACEMENT, KINDS, LENGTH, POINT, TcpDeviations
 
 CANDIDATES = 1500
