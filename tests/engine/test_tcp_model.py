@@ -58,7 +58,9 @@ def test_derivatives_are_differences_of_the_whole_model(machine, alternative):
         moved[k] = tuple(np.add(moved[k], (1.0, -2.0, 3.0)))
         other = TcpModel(replace(machine, alternative_model=alternative, centers=tuple(moved)))
         change = model.center_derivatives(places, lengths, errors, letter) @ [1.0, -2.0, 3.0]
-        assert other.tips(places, lengths, errors) - model.tips(places, lengths, errors) == pytest.approx(change, abs=1e-9)
+        assert other.tips(places, lengths, errors) - model.tips(places, lengths, errors) == pytest.approx(
+            change, abs=1e-9
+        )
 
 
 def test_known_errors_are_those_of_the_kernel():
@@ -66,10 +68,13 @@ def test_known_errors_are_those_of_the_kernel():
     tables = (
         ErrorTable("C0Y", (5e-5,)),
         ErrorTable("EXX", (0.0, 0.01, 0.03), "X", ((-300.0,), (0.0,), (250.0,))),
-        ErrorTable("EZC", tuple(np.sin(np.arange(9.0))[:-1]) + (0.0,), "C", turn),
+        ErrorTable("EZC", (*np.sin(np.arange(8.0)), 0.0), "C", turn),
         ErrorTable("EZB", (0.01, 0.02), "B", ((-90.0,), (90.0,))),
     )  # fmt: skip
-    for errors in (tables, (*tables, ErrorTable("EYX", (1e-3, 2e-3, 3e-3, 4e-3), "XY", ((0, 0), (0, 9), (9, 0), (9, 9))))):
+    for errors in (
+        tables,
+        (*tables, ErrorTable("EYX", (1e-3, 2e-3, 3e-3, 4e-3), "XY", ((0, 0), (0, 9), (9, 0), (9, 9)))),
+    ):
         model = TcpModel(replace(MACHINES[1], errors=errors))
         places = np.random.default_rng(2).uniform(-900.0, 900.0, (60, 6))
         for row, place in zip(model.known_errors(places), places.tolist(), strict=True):
