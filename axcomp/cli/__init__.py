@@ -22,6 +22,7 @@ COMMANDS = {
     "bench": "measure what a cycle costs, engine and FMU",
     "measure": "evaluate positioning measurements by ISO 230-2",
     "create": "make compensation tables from measurements",
+    "plan": "propose what to measure next for volumetric errors",
     "convert": "convert leadscrew and cross tables to and from other controllers",
     "show": "show compensation tables as pictures and tables",
     "sweep": "run many variations of a machine",

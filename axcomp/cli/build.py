@@ -110,6 +110,11 @@ def _platforms(text: str) -> tuple[str, ...]:
 
 def _do_build(args: argparse.Namespace) -> int:
     example = models() / "three_axis"
+    if args.machine is None:
+        if args.output is not None or args.image is not None:
+            print("axcomp build: --machine is missing: whose lists are to be in it?", file=sys.stderr)
+            return 2
+        print("axcomp build: no --machine: the example machine models/three_axis and its plant", file=sys.stderr)
     try:
         built = _build(args, args.machine or example)
         for finding in built.findings:

@@ -20,6 +20,13 @@ if TYPE_CHECKING:
         parse_block as parse_block,
     )
     from .nc_scanner import NcError as NcError
+    from .sheet import (
+        Row as Row,
+        Sheet as Sheet,
+        SheetError as SheetError,
+        number as number,
+        read_sheets as read_sheets,
+    )
     from .tcp_model import TcpModel as TcpModel
     from .trajectory import (
         LIMITS as LIMITS,
@@ -41,6 +48,7 @@ else:
         nc_commands="Assignment AxisCommand AxisVariable Command Variable VolumetricSwitch VolumetricUpdate "
         "parse_block",
         nc_scanner="NcError",
+        sheet="Row Sheet SheetError number read_sheets",
         tcp_model="TcpModel",
         trajectory="Columns InputError InputFile LIMITS Motion Sine TIME completed read_input read_table",
     )

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
         Creation as Creation,
     )
     from .crosstalk import AccelerationTests as AccelerationTests
-    from .driver import Fit as Fit, Options as Options
+    from .driver import DROP as DROP, KEEP as KEEP, REPORT as REPORT, Fit as Fit, Options as Options
     from .friction import FrictionReadings as FrictionReadings
     from .hat_functions import hats as hats
     from .plane import Flatness as Flatness
@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from .target_list import TargetList as TargetList
     from .thinning import closest as closest, deviation as deviation, fewest as fewest
     from .volumetric_basis import Sought as Sought, sought_errors as sought_errors
-    from .volumetric_identification import Identifier as Identifier, TcpDeviations as TcpDeviations
+    from .volumetric_identification import Identifier as Identifier
+    from .volumetric_plan import Plan as Plan, plan_volumetric as plan_volumetric, rows_of as rows_of
+    from .volumetric_readings import TcpDeviations as TcpDeviations
     from .volumetric_target import VolumetricTarget as VolumetricTarget
 else:
     __all__, __getattr__, __dir__ = face(
@@ -32,7 +34,7 @@ else:
         axis_list="AxisList",
         creation="CannotCreateError Creation LEFT_OUT MEASURED PREDICTED",
         crosstalk="AccelerationTests",
-        driver="Fit Options",
+        driver="DROP Fit KEEP Options REPORT",
         friction="FrictionReadings",
         hat_functions="hats",
         plane="Flatness",
@@ -40,6 +42,8 @@ else:
         target_list="TargetList",
         thinning="closest deviation fewest",
         volumetric_basis="Sought sought_errors",
-        volumetric_identification="Identifier TcpDeviations",
+        volumetric_identification="Identifier",
+        volumetric_plan="Plan plan_volumetric rows_of",
+        volumetric_readings="TcpDeviations",
         volumetric_target="VolumetricTarget",
     )

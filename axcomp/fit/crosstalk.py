@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 from math import comb
@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import Crosstalk, CrosstalkTest
-from ..measurement import LENGTHS, RUN, TARGET_DIGITS, Column, Readings
+from ..measurement import LENGTHS, RUN, TARGET_DIGITS, Column, Outlier, Readings, find_outliers
 from ..model import shown
 from ..plot import labelled
 from .creation import CannotCreateError
@@ -102,6 +102,17 @@ class CrosstalkFit(Fit[AccelerationTests, _Table]):
         "adaptation": axis_numbers("numbers of the axes of position1 and position2", "+", "adaptation"),
     }
     read = AccelerationTests.read
+
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart from those of the same test."""
+        found = self.readings
+        tests = np.column_stack([found.places, found.accelerations, found.directions])
+        test = np.unique(tests, axis=0, return_inverse=True)[1].ravel()
+
+        def named(i: int) -> str:
+            return f"place {found.places[i, 0]:g}, {found.places[i, 1]:g} mm at {found.accelerations[i]:g} mm/s²"
+
+        return find_outliers(test, found.runs, found.deviations, named)
 
     def prepare(self) -> None:
         """Look which axes take part, and which cases were measured."""

@@ -6,14 +6,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import KINDS
-from ..measurement import Readings
+from ..measurement import Outlier, Readings
 from ..model import shown
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, Report
 from .target_list import TargetList
@@ -22,6 +22,8 @@ from .thinning import Places, closest, deviation, fewest
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+REPORT, DROP, KEEP = "report", "drop", "keep"
+"""What becomes of outliers: they stop it, are left out, or count like the others."""
 RESOLUTION = 1e-4
 """What positions and corrections in a list count in, mm or °."""
 
@@ -67,6 +69,8 @@ class Options:
     masters, adaptation : sequence of int
         Logical numbers of the masters (cross, plane; crosstalk: the accelerating axis) and of the adaptation axes
         (crosstalk); 0 or none: as the list says.
+    outliers : str
+        ``report``: readings that stand apart stop it; ``drop``: they are left out; ``keep``: they count.
     errors, nodes, scatter : sequence of str, int, float or None
         The errors that are sought, values of one at most, standard deviation of a reading in µm (volumetric); None: all
         of the chain, as many as usual, as the residuals say.
@@ -78,6 +82,7 @@ class Options:
     one_sided: bool = False
     masters: Sequence[int] = ()
     adaptation: Sequence[int] = ()
+    outliers: str = REPORT
     errors: Sequence[str] | None = None
     nodes: int | None = None
     scatter: float | None = None
@@ -155,8 +160,8 @@ class Fit(ABC, Generic[R, T]):
 
     @staticmethod
     @abstractmethod
-    def read(path: str | Path) -> R:
-        """Read a file; MeasurementError if it cannot be read, or a line of it."""
+    def read(path: str | Path, axis: str = "") -> R:
+        """Read a file, of several axes in it that of ``axis``; MeasurementError if it, or a line of it, cannot be."""
 
     @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> Any:
@@ -203,6 +208,16 @@ class Fit(ABC, Generic[R, T]):
     @abstractmethod
     def compensation(self, table: T) -> Any:
         """Return what the list is to say."""
+
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart from their like."""
+        return ()
+
+    def moved(self, other: Self) -> float:
+        """Return how far the table is from that of a fit of some of the readings, at most, in ``small``."""
+        mine, its = (one.table(one.means(one.readings)) for one in (self, other))
+        means = other.means(other.readings)
+        return float(np.max(np.abs(self.removed(mine, means) - other.removed(its, means))))
 
     def points(self, table: T) -> int:
         """Return the number of entries."""
@@ -273,6 +288,7 @@ class Fit(ABC, Generic[R, T]):
             figures=figures,
             labels=self.labels,
             report=report,
+            before=self.target.before(),
             draw=lambda ax: self.draw(ax, table),
         )
 

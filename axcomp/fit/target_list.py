@@ -95,6 +95,10 @@ class TargetList:
             if self.axis is not None and self._is_named():
                 self.unit = self.axis.unit
 
+    def before(self) -> dict[Path, bytes]:
+        """Return what the list held when it was read."""
+        return {self.path: self._document.data} if self.exists else {}
+
     def _read(self, number: int | None) -> Document:  # noqa: ARG002
         """Return the list, read with the machine whose start-up list beside it names it, else alone."""
         if not self.path.is_file():

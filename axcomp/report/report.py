@@ -15,7 +15,7 @@ from ..analysis.budget import Budget, budget_figure, budget_of
 from ..analysis.judgement import INTERCHANGED, REVERSED, WITHOUT, WRITTEN, Evidence, Judgement, rate, sentence
 from ..bench import Sample, bench_engine
 from ..lists import Finding, Reading, Severity
-from ..measurement import SYMBOLS, Iso230Result, evaluate
+from ..measurement import SYMBOLS, Iso230Result, evaluate_robustly
 from ..model import CYCLE_TIME, AxisType, Machine, symbol
 from ..plot import (
     Content,
@@ -134,7 +134,7 @@ def make_report(
         reading,
         judgement,
         tuple(contents_of(machine, tool_length=given.tool_length)),
-        tuple(evaluate(measured) for measured in given.readings),
+        tuple(evaluate_robustly(measured) for measured in given.readings),
         budget,
         # No goal is set for a machine at large.
         tuple(bench_engine(machine, "this machine", repeats, math.inf)) if repeats > 0 and machine.axes else (),

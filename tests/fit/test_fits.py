@@ -29,5 +29,5 @@ def test_the_example_of_a_kind_is_understood_and_its_options_reach_the_fit(kind)
         assert given["fit"] is fit
         taken = {item.name for item in fields(Options)} | {"axis", "name", "chain", "axes", "workpiece_axes"}
         taken |= {"tool_position", "tool_orientation"}
-        common = {"do", "fit", "files", "into", "output", "dry_run", "plot", "format"}
+        common = {"do", "fit", "files", "into", "output", "dry_run", "plot", "format", "measured"}
         assert set(given) - common <= taken
