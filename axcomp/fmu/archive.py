@@ -15,7 +15,8 @@ from pathlib import Path
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every entry: the earliest that ZIP knows."""
 
-LEVEL = 9
+LEVEL = 6
+"""Of the compression: 9 takes four times as long and saves 5 %."""
 UNIX = 3
 MODE = 0o100644 << 16
 
