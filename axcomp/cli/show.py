@@ -48,20 +48,21 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 def _do_show(args: argparse.Namespace) -> int:
     if args.output is not None and args.output.suffix.lower() not in _WRITERS:
         return failed("show", f"{args.output} must end in {', '.join(_WRITERS)}")
-    contents, known = _contents(args.path, args)
+    contents, known, name = _contents(args.path, args)
     notes: list[str] = []
+    title = f"Compensations of {name}"
     if args.against is not None:
-        others, other_known = _contents(args.against, args)
+        others, other_known, other = _contents(args.against, args)
         if not other_known:
             return failed("show", f"there is no axis in {args.against}")
         known |= other_known
+        title = f"{other} minus {name}"
         contents, notes = _differences(contents, others)
     if not contents:
         return failed("show", _nothing(args, known, notes))
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
     if args.output is not None:
-        title = f"{args.against} minus {args.path}" if args.against else f"Compensations of {args.path}"
         for path in _WRITERS[args.output.suffix.lower()](contents, args.output, title, notes):
             print(path)
     elif args.format == "json":
@@ -71,10 +72,12 @@ def _do_show(args: argparse.Namespace) -> int:
     return 0
 
 
-def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
-    """Return what is asked for, and the names of the machine's axes."""
-    machine = read_lists(path, args.axis_type).machine
-    return contents_of(machine, args.axis, args.kind, args.tool_length), {axis.name for axis in machine.axes}
+def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str], str]:
+    """Return what is asked for, the names of the machine's axes, and its own."""
+    reading = read_lists(path, args.axis_type)
+    machine = reading.machine
+    contents = contents_of(machine, args.axis, args.kind, args.tool_length)
+    return contents, {axis.name for axis in machine.axes}, reading.name
 
 
 def _differences(mine: Sequence[Content], theirs: Sequence[Content]) -> tuple[list[Content], list[str]]:

@@ -60,6 +60,14 @@ class Reading:
     _compensation_lists: Mapping[int, Document] = field(repr=False)
     axis_type: TypeName | None = None
 
+    @property
+    def name(self) -> str:
+        """What the machine is called: by its folder, or by the list that is all there is of it."""
+        path = self.path.resolve()
+        if self.start_up is not None and path.is_file():
+            return path.parent.name
+        return path.stem if path.is_file() else path.name
+
     def axis_list(self, number: int) -> Document | None:
         """Return the list that describes an axis, by its logical number."""
         return self._axis_lists.get(number)

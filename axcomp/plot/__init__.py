@@ -23,12 +23,14 @@ if TYPE_CHECKING:
     from .pages import (
         document as document,
         html_table as html_table,
+        made as made,
         navigation as navigation,
         overview as overview,
         page as page,
         picture as picture,
         remarks as remarks,
         section as section,
+        sections as sections,
         shown as shown,
     )
     from .style import (
@@ -52,7 +54,7 @@ else:
         curves="Curves",
         field="Field",
         maps="Map",
-        pages="document html_table navigation overview page picture remarks section shown",
+        pages="document html_table made navigation overview page picture remarks section sections shown",
         style="COLOURS DOWN UP labelled line_styles new_figure png printed save",
         terminal="compared console figure table",
     )

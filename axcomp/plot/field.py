@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 
 from ..model import shown
 from .content import Content, Records, span
-from .curves import Array
-from .style import new_figure, printed, sequential
+from .style import Array, new_figure, printed, sequential
 
 LONGEST = 0.9
 """Length of the longest arrow, in mean distances of neighbouring positions."""

@@ -24,13 +24,14 @@ from ..plot import (
     document,
     figure as number,
     html_table,
+    made,
     navigation,
     new_figure,
     overview,
     picture,
     printed,
     remarks,
-    section,
+    sections,
 )
 
 CONTRIBUTIONS_SHOWN = 12
@@ -90,7 +91,9 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Return all figures for JSON."""
         return {
+            "machine": self.reading.name,
             "path": str(self.reading.path),
+            "made": made(),
             "counts": self.counts(),
             "findings": [
                 {"severity": f.severity.value, "file": f.file, "line": f.line, "code": f.code, "message": f.message}
@@ -147,8 +150,9 @@ def _page(report: Report) -> str:
     chapters = [(anchor, title, body) for anchor, title, make in _CHAPTERS if (body := make(report))]
     links = navigation((anchor, title) for anchor, title, _ in chapters)
     parts = "\n".join(f'<h2 id="{anchor}">{escape(title)}</h2>\n{body}' for anchor, title, body in chapters)
-    body = f"<p>{_counted(report)}</p>\n{remarks(report.notes)}\n{links}\n{parts}"
-    return document(f"Compensations of {report.reading.path}", body)
+    intro = f"<p>{_counted(report)} Read from {escape(str(report.reading.path))}.</p>"
+    body = f"{intro}\n{remarks(report.notes)}\n{links}\n{parts}"
+    return document(f"Compensations of {report.reading.name}", body)
 
 
 def _counted(report: Report) -> str:
@@ -297,8 +301,7 @@ def _budget(report: Report) -> str:
 def _tables(report: Report) -> str:
     if not report.contents:
         return "<p>No compensation is in force.</p>"
-    sections = "\n".join(section(content, "h3") for content in report.contents)
-    return f"{html_table(overview(report.contents))}\n{sections}"
+    return f"{html_table(overview(report.contents))}\n{sections(report.contents, 'h3')}"
 
 
 def _cost(report: Report) -> str:
