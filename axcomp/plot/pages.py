@@ -12,7 +12,7 @@ from html import escape
 
 from matplotlib.figure import Figure
 
-from ..fmu import version
+from .. import __version__
 from .content import Cell, Content, Records
 from .style import embedded, printed
 
@@ -67,7 +67,7 @@ def made(moment: datetime | None = None) -> str:
     """Return the version of axcomp and the date; SOURCE_DATE_EPOCH stands for now where it is set."""
     epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
     now = moment or (datetime.fromtimestamp(int(epoch), UTC) if epoch.isdecimal() else datetime.now(UTC))
-    return f"axcomp {version()}, {now:%Y-%m-%d %H:%M} UTC"
+    return f"axcomp {__version__}, {now:%Y-%m-%d %H:%M} UTC"
 
 
 def navigation(links: Iterable[tuple[str, str]]) -> str:
