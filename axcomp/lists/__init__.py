@@ -14,9 +14,10 @@ from .grammar import Entry, decode, entries, number, string
 from .isg_csv import read_isg_csv, write_isg_csv
 from .positions import Position
 from .reader import Reading, TypeName, read_machine, reread_volumetric
+from .recognition import START_UP_NAME, kind_of, parameter_format
 from .reference import HEADINGS, PAGE, as_dict, cells, page
 from .saving import write_whole
-from .start_up import START_UP_NAME, MachineFiles, find_lists
+from .start_up import MachineFiles, find_lists
 from .values import ListValues, read_values
 from .volumetric_blocks import ParameterBlock
 from .volumetric_list import VolumetricReader
@@ -65,11 +66,13 @@ __all__ = [
     "format_compensation_list",
     "format_start_up_list",
     "format_volumetric_list",
+    "kind_of",
     "machine_documents",
     "number",
     "page",
     "parameter",
     "parameter_file",
+    "parameter_format",
     "read_etalon",
     "read_isg_csv",
     "read_machine",

@@ -23,20 +23,16 @@ _Fault = tuple[str, str]
 class _Disk:
     """Files as they lie on the disk."""
 
-    @staticmethod
-    def exists(path: Path) -> bool:
+    def exists(self, path: Path) -> bool:
         return path.exists()
 
-    @staticmethod
-    def is_dir(path: Path) -> bool:
+    def is_dir(self, path: Path) -> bool:
         return path.is_dir()
 
-    @staticmethod
-    def children(folder: Path) -> Iterable[Path]:
+    def children(self, folder: Path) -> Iterable[Path]:
         return folder.iterdir()
 
-    @staticmethod
-    def read(path: Path) -> Document | _Fault:
+    def read(self, path: Path) -> Document | _Fault:
         try:
             if not path.exists():
                 return "AXC-MISSING", "There is no such file."
@@ -48,6 +44,19 @@ class _Disk:
         except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) and error.strerror else error
             return "AXC-UNREADABLE", f"The file cannot be read: {reason}."
+
+
+class _Opened(_Disk):
+    """Documents that are held, as an editor holds them, and beside them what lies on the disk."""
+
+    def __init__(self, documents: Iterable[Document]) -> None:
+        self._documents = {_normal(document.path): document for document in documents}
+
+    def exists(self, path: Path) -> bool:
+        return _normal(path) in self._documents or super().exists(path)
+
+    def read(self, path: Path) -> Document | _Fault:
+        return self._documents.get(_normal(path)) or super().read(path)
 
 
 class _Memory:
@@ -87,6 +96,8 @@ class Files:
         Gets told what cannot be read.
     held : iterable of Document or None
         These are all files there are; None: those on the disk.
+    beside_disk : bool
+        Beside those that are held there are those on the disk.
 
     Attributes
     ----------
@@ -94,9 +105,10 @@ class Files:
         The files read so far, by the path they were named by.
     """
 
-    def __init__(self, findings: Findings, held: Iterable[Document] | None = None) -> None:
+    def __init__(self, findings: Findings, held: Iterable[Document] | None = None, beside_disk: bool = False) -> None:
         self._findings = findings
-        self._source: _Disk | _Memory = _Disk() if held is None else _Memory(held)
+        self._source: _Disk | _Memory
+        self._source = _Disk() if held is None else _Opened(held) if beside_disk else _Memory(held)
         self._faults: dict[Path, _Fault] = {}
         self.documents: dict[Path, Document] = {}
 

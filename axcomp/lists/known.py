@@ -43,6 +43,12 @@ _SHORT = 8
 """Letters of a name up to which one slip is likely; in longer ones two are."""
 
 
+def is_structure(kind: ListKind, key: str) -> bool:
+    """Tell whether an entry belongs to a structure that such lists have and channels have not, be it used or not."""
+    head = _head(key)
+    return head in _STRUCTURES[kind] and head not in _CHANNEL_HEADS.split()
+
+
 def is_known(kind: ListKind, key: str) -> bool:
     """Tell whether an entry is one of the controller's that nothing here uses.
 

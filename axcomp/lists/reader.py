@@ -18,7 +18,7 @@ from .findings import Finding, Findings, ListError
 from .positions import located
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues
-from .volumetric_list import read_one, read_volumetric
+from .volumetric_list import check_parameters, read_one, read_volumetric
 
 TypeName = Literal["translatory", "rotary", "modulo"]
 """What an axis without axis list can be taken for; ``modulo``: rotary, counting from 0° to 360°."""
@@ -85,6 +85,7 @@ def read_machine(
     *,
     strict: bool = False,
     documents: Iterable[Document] | None = None,
+    beside_disk: bool = False,
     axis_type: TypeName | None = None,
 ) -> Reading:
     """Read the lists of a machine.
@@ -94,12 +95,14 @@ def read_machine(
     Parameters
     ----------
     path : path
-        A start-up list, a folder with one, a folder of compensation lists, or a single compensation list. Without
+        A start-up list, a folder with one, a folder of compensation lists, or a single list of any kind. Without
         any axis list every compensation with a plausible table acts.
     strict : bool
         Raise if there is a finding of severity error.
     documents : iterable of Document, optional
         These are all files there are; the disk is not looked at.
+    beside_disk : bool
+        The disk is looked at for what ``documents`` lack: so an editor sees lists that are not saved.
     axis_type : str, optional
         ``rotary`` or ``modulo``: without any axis list, of the axes that have compensation lists. All others, and all
         without it, are translatory.
@@ -110,7 +113,7 @@ def read_machine(
         In strict mode, with all findings of severity error.
     """
     findings = Findings()
-    reader = _MachineReader(findings, Files(findings, documents), axis_type)
+    reader = _MachineReader(findings, Files(findings, documents, beside_disk), axis_type)
     reading = reader.read(Path(path))
     errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
@@ -213,8 +216,13 @@ class _MachineReader:
 
     def _machine(self, lists: MachineFiles, axes: Axes, tables: dict[int, ListValues]) -> Machine:
         # Reading a table may add the axes it refers to.
-        acting = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
+        acting = {
+            axis.number: self._compensations(axis, tables.get(axis.number), axes, lists.has_tables)
+            for axis in axes.all()
+        }
         volumetric = read_volumetric(lists, self.files, axes, self.findings)
+        if lists.parameters is not None:
+            check_parameters(lists.parameters, self.files, self.findings)
         names = axes.names()
         return Machine(
             tuple(
@@ -320,7 +328,7 @@ class _MachineReader:
         message = f"Axis {number} has a list of this kind already; this one is not used."
         self._note("AXC-NUMBER-TWICE", values, message)
 
-    def _compensations(self, axis: AxisSettings, table: ListValues | None, axes: Axes) -> _Acting:
+    def _compensations(self, axis: AxisSettings, table: ListValues | None, axes: Axes, has_tables: bool) -> _Acting:
         """Return what acts on an axis, and what is activated without a table."""
         found = _Acting({}, {})
         for name, kind in KINDS.items():
@@ -332,7 +340,7 @@ class _MachineReader:
                 compensation = kind.read(source)
                 if not active and compensation is not None:
                     self._note_inactive(kind, source)
-            elif active and axis.values is not None:
+            elif active and axis.values is not None and has_tables:
                 code, entry = kind.no_table_code, kind.activator.name
                 message = f"{entry} is 1, but axis {axis.number} has no {name} table; nothing is compensated."
                 self.findings.add(code, *axis.values.place(entry), entry, message)
