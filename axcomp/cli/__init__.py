@@ -13,7 +13,9 @@ from types import ModuleType
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
-    "check": "check the lists of a machine",
+    "check": "check the lists of machines",
+    "format": "write lists in a layout",
+    "lsp": "serve editors: findings while one types, and all about an entry",
     "parameters": "list the parameters that are understood",
     "run": "run setpoints and NC commands through a machine",
     "demo": "couple compensation and plant, and show what is left of the errors",
@@ -40,8 +42,9 @@ EXTRA = {
     "show": ("rich",),
     "diagnose": ("openpyxl",),
     "replay": ("rich",),
+    "lsp": ("pygls",),
 }
-"""Packages of the extra ``workbench`` without which a command does nothing."""
+"""Packages without which a command does nothing: of the extra ``lsp``, and of ``workbench``."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -50,6 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
     )
+    parser.add_argument("--version", action=_Version)
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
     missing = [name for name, packages in EXTRA.items() if not all(map(find_spec, packages))]
@@ -60,7 +64,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if name not in missing:
                 subparsers.add_parser(name, help=what)
     if missing:
-        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(missing)}."
+        extras = ",".join(sorted({_extra_of(name) for name in missing}))
+        parser.epilog = f"With pip install 'axcomp[{extras}]' there are also: {', '.join(missing)}."
     options = parser.parse_args(given)
     try:
         status: int = options.do(options)
@@ -84,6 +89,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return status
 
 
+class _Version(argparse.Action):
+    """Prints the version, which is only looked for when it is asked for."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str) -> None:
+        super().__init__(option_strings, dest, nargs=0, default=argparse.SUPPRESS, help="print the version")
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print it and exit."""
+        from ..fmu import version
+
+        print(f"axcomp {version()}")
+        parser.exit()
+
+
 def _module(name: str) -> ModuleType:
     """Import the module of a command; SystemExit with a sentence if one of its packages is missing."""
     try:
@@ -91,7 +110,11 @@ def _module(name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
             raise
-        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
+        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[{_extra_of(name)}]'") from None
+
+
+def _extra_of(command: str) -> str:
+    return "lsp" if command == "lsp" else "workbench"
 
 
 def _print_anything() -> None:

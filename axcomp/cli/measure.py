@@ -20,7 +20,7 @@ from ..measurement import (
     read_positioning,
 )
 from ..model import symbol
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 
 _EPILOG = """\
 A table has the columns target, run, direction, deviation (mm and µm unless the first row says otherwise:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .document import Document
 from .findings import Findings
+from .project import Project
 
 SIZE_MAX = 200_000_000
 """Bytes of a list that are read at most; the largest legal one has about 1 MB."""
@@ -126,6 +127,14 @@ class Files:
         code, sentence = self._faults.get(path, ("AXC-BINARY", "The file is no text; nothing of it is taken."))
         self._findings.add(code, str(path), 0, "", sentence)
         return None
+
+    def project(self, path: Path) -> Project:
+        """Return a file that has been read as a project; its lists are files of their own from now on."""
+        read = self.documents[path]
+        project = read if isinstance(read, Project) else Project(path, read.data)
+        self.documents[path] = project
+        self.documents.update((section.path, section) for section in project.sections)
+        return project
 
     def is_dir(self, path: Path) -> bool:
         """Whether a path is a folder; OSError or ValueError for one that cannot be."""

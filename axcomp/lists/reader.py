@@ -15,7 +15,7 @@ from .compensation import TableReader
 from .document import Document
 from .files import Files
 from .findings import Finding, Findings, ListError
-from .positions import located
+from .positions import located, outside
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues
 from .volumetric_list import check_parameters, read_one, read_volumetric
@@ -48,6 +48,8 @@ class Reading:
         What the lists say about the axes besides their tables.
     axis_type : str or None
         What was said of axes without axis lists.
+    inner_findings : tuple of Finding
+        The same findings; lists that stand in another file are named themselves, and their own lines counted.
     """
 
     machine: Machine
@@ -59,6 +61,7 @@ class Reading:
     _axis_lists: Mapping[int, Document] = field(repr=False)
     _compensation_lists: Mapping[int, Document] = field(repr=False)
     axis_type: TypeName | None = None
+    inner_findings: tuple[Finding, ...] = field(default=(), repr=False)
 
     def axis_list(self, number: int) -> Document | None:
         """Return the list that describes an axis, by its logical number."""
@@ -74,7 +77,7 @@ class Reading:
 
     def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
         """Return findings about these lists with the columns of the entries they are about."""
-        return located(findings, self.documents)
+        return outside(located(findings, self.documents), self.documents)
 
 
 _NUMBER = "kopf.achs_nr"
@@ -148,7 +151,7 @@ def reread_volumetric(
         return None, ()
     read = Files(findings)
     volumetric = read_one(index, start.lists, read, start.axes, findings, files)
-    return volumetric, located(findings.all(), read.documents)
+    return volumetric, outside(located(findings.all(), read.documents), read.documents)
 
 
 class _Start(NamedTuple):
@@ -202,9 +205,10 @@ class _MachineReader:
         lists, axes, tables = start
         machine = self._machine(lists, axes, tables)
         documents = self.files.documents
+        inner = located(self.findings.all(), documents)
         return Reading(
             machine,
-            located(self.findings.all(), documents),
+            outside(inner, documents),
             path,
             documents,
             next((one for one in documents.values() if one.kind is ListKind.START_UP), None),
@@ -212,6 +216,7 @@ class _MachineReader:
             self._axis_lists,
             self._compensation_lists,
             self.axis_type,
+            inner,
         )
 
     def _machine(self, lists: MachineFiles, axes: Axes, tables: dict[int, ListValues]) -> Machine:
@@ -266,7 +271,7 @@ class _MachineReader:
             if values is None:
                 continue
             # The list for all axes cannot number them.
-            number = values.integer(_NUMBER) if values.given(_NUMBER) else 0
+            number = values.integer(_NUMBER) if values.given(_NUMBER) else named.log_ax_nr
             if not number:
                 self._note("AXC-NUMBER", values, "The list does not say which axis it is for; it is not used.")
             elif number in axes:

@@ -1,4 +1,4 @@
-"""Which kind of list a file is, by what stands in it: a list is recognized wherever it lies and however it is called."""
+"""Which kind of list a file is, by what stands in it, wherever it lies and however it is called."""
 
 from __future__ import annotations
 

@@ -11,6 +11,7 @@ from ..kinds import ListKind
 from .document import Document
 from .files import Files
 from .findings import Findings
+from .project import Project, looks_like_project
 from .recognition import START_UP_NAME, kind_of, parameter_format
 from .values import ListValues
 
@@ -47,8 +48,10 @@ class MachineFiles:
         The axis list that is read first, for all axes (P-STUP-00035).
     start_up : ListValues or None
         The start-up list itself, where there is one.
-    volumetric, parameters : Path or None
-        A volumetric list, or a file of volumetric parameters, that is looked at on its own.
+    volumetric : list of Path
+        Volumetric lists that no start-up list names.
+    parameters : Path or None
+        A file of volumetric parameters that is looked at on its own.
     has_tables : bool
         False for an axis list on its own: nothing can be said about tables.
     folder : Path
@@ -60,7 +63,7 @@ class MachineFiles:
     axis: list[NamedList] = field(default_factory=list)
     axis_default: Path | None = None
     start_up: ListValues | None = None
-    volumetric: Path | None = None
+    volumetric: list[Path] = field(default_factory=list)
     parameters: Path | None = None
     has_tables: bool = True
 
@@ -80,6 +83,8 @@ def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
     document = files.document(path)
     if document is None:
         return MachineFiles(path.parent)
+    if looks_like_project(document):
+        return _lists_of_project(files.project(path), files, findings)
     kind = kind_of(path.name, document.text)
     if kind is ListKind.START_UP:
         return _lists_of_start_up(document, files, findings)
@@ -88,7 +93,7 @@ def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
     if kind is ListKind.AXIS:
         return MachineFiles(path.parent, axis=[NamedList(path)], has_tables=False)
     if kind is ListKind.VOLUMETRIC:
-        return MachineFiles(path.parent, volumetric=path)
+        return MachineFiles(path.parent, volumetric=[path])
     return MachineFiles(path.parent, [NamedList(path)])
 
 
@@ -114,6 +119,21 @@ def _lists_of_folder(folder: Path, files: Files, findings: Findings) -> MachineF
     if not lists.compensation and not lists.axis:
         message = f"The folder has neither a {START_UP_NAME} nor lists achskw*.lis."
         findings.add("AXC-MISSING", str(folder), 0, "", message)
+    return lists
+
+
+def _lists_of_project(project: Project, files: Files, findings: Findings) -> MachineFiles:
+    """Take all lists of a project file; file names in them are relative to it."""
+    path = project.path
+    if project.fault:
+        findings.add("AXC-UNREADABLE", str(path), project.fault_line, "", f"The file is no XML: {project.fault}.")
+    elif not project.sections:
+        findings.add("AXC-EMPTY", str(path), 0, "", "The project file holds no list of an axis.")
+    starts = project.of_kind(ListKind.START_UP)
+    lists = _lists_of_start_up(starts[0], files, findings) if starts else MachineFiles(path.parent)
+    for kind, taken in ((ListKind.COMPENSATION, lists.compensation), (ListKind.AXIS, lists.axis)):
+        taken.extend(NamedList(one.path, one.axis_number, (str(one.path), 0, "")) for one in project.of_kind(kind))
+    lists.volumetric = [one.path for one in project.of_kind(ListKind.VOLUMETRIC)]
     return lists
 
 

@@ -90,11 +90,11 @@ def read_one(
 def _list_of(index: int, lists: MachineFiles, files: Files) -> Path | None:
     """Return the list of a compensation: the one the start-up list names, or the only list there is."""
     start_up = lists.start_up
-    if start_up is None:
-        return lists.volumetric if index == 0 else None
-    name = start_up.text(_FILE_NAME, index)
+    name = "" if start_up is None else start_up.text(_FILE_NAME, index)
+    if start_up is None or not name:
+        return lists.volumetric[index] if index < len(lists.volumetric) else None
     parameter = _FILE_NAME.replace("[i]", f"[{index}]")
-    return files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter)) if name else None
+    return files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
 
 
 def check_parameters(path: Path, files: Files, findings: Findings) -> None:

@@ -1,4 +1,4 @@
-"""Where the package's companions are: the sources of the FMUs and the example machines.
+"""Where the package's companions are: the sources of the FMUs, the example machines, the documentation.
 
 They lie beside the package in a checkout, and inside it in an installed wheel.
 """
@@ -18,6 +18,11 @@ def fmu_sources() -> Path:
 def models() -> Path:
     """Return the folder of the example machines."""
     return _companion("models")
+
+
+def docs() -> Path:
+    """Return the folder of the documentation."""
+    return _companion("docs")
 
 
 def machine_path(text: str) -> Path:
