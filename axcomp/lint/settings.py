@@ -79,7 +79,7 @@ def find_settings(start: Path) -> Settings:
     start = start.absolute()
     for above in (start, *start.parents):
         for name in ("axcomp.toml", "pyproject.toml"):
-            if os.path.isfile(above / name):  # noqa: PTH113: no error for a path that cannot be one
+            if os.path.isfile(above / name):  # noqa: PTH113 - a path may be one that cannot be
                 found = _read(above / name)
                 if found is not None:
                     return found
