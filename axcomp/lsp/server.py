@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import difflib
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -73,9 +72,16 @@ class _Server(LanguageServer):
         for path in files | self._told.get(machine, set()):
             lines = self.lines(path)
             diagnostics = [_diagnostic(one, lines, base) for one in found.get(path, ())]
-            uri = from_fs_path(str(path)) or ""
-            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, diagnostics))
+            self._publish(path, diagnostics)
         self._told[machine] = set(found)
+        used = {self.sources.machine_of(path) for path in self.sources.open} | {machine}
+        for other in [one for one in self._told if one not in used]:
+            # Its lists belong to another machine by now, or nobody looks at them.
+            for path in self._told.pop(other) - set(found):
+                self._publish(path, [])
+
+    def _publish(self, path: Path, diagnostics: list[types.Diagnostic]) -> None:
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(_uri(path), diagnostics))
 
     def at(self, uri: str) -> tuple[Path, Document | None, list[str]]:
         """Return path, list and lines of a file."""
@@ -278,23 +284,22 @@ def _actions(
 
 
 def _edits(before: list[str], after: list[str]) -> list[types.TextEdit]:
-    """Return how lines become others, block by block: what stays is not touched."""
-    edits = []
-    for tag, start, end, begin, stop in difflib.SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
-        if tag == "equal":
-            continue
-        text = "".join(f"{line}\n" for line in after[begin:stop])
-        first, last = types.Position(start, 0), types.Position(end, 0)
-        if end == len(before):
-            # Behind the last line there is no line end: that of the line before goes.
-            text = text[:-1] if text else ""
-            last = span(before, end - 1, len(before[-1]), len(before[-1])).end
-            if start == end or (not text and start):
-                at = len(before[start - 1])
-                first = span(before, start - 1, at, at).start
-                text = f"\n{text}" if begin < stop else ""
-        edits.append(types.TextEdit(types.Range(first, last), text))
-    return edits
+    """Return how lines become others: what is the same at both ends is not touched."""
+    if before == after:
+        return []
+    least = min(len(before), len(after))
+    start = next((i for i in range(least) if before[i] != after[i]), least)
+    same = next((i for i in range(least - start) if before[-1 - i] != after[-1 - i]), least - start)
+    if same:
+        text = "".join(f"{line}\n" for line in after[start : len(after) - same])
+        where = types.Range(types.Position(start, 0), types.Position(len(before) - same, 0))
+        return [types.TextEdit(where, text)]
+    # Behind the last line there is no line end: that of the line before goes or stays with it.
+    at = max(start - 1, 0)
+    first = span(before, at, len(before[at]), len(before[at])).start if start else types.Position(0, 0)
+    last = span(before, len(before) - 1, len(before[-1]), len(before[-1])).end
+    text = ("\n" if start and start < len(after) else "") + "\n".join(after[start:])
+    return [types.TextEdit(types.Range(first, last), text)]
 
 
 def _uri(path: Path) -> str:

@@ -28,6 +28,10 @@ class Sources:
         """Take in what an editor holds of a file."""
         self.open[path] = text
         before = self._documents.get(path)
+        if before is None or before.kind is ListKind.START_UP:
+            # What belongs together may have changed.
+            self._machine_of.clear()
+            self.readings.clear()
         self._documents[path] = Document(path, text.source.encode("utf-8", "replace"), before.kind if before else None)
 
     def close(self, path: Path) -> None:
@@ -40,6 +44,7 @@ class Sources:
         if path not in self.open:
             self._documents.pop(path, None)
         self._machine_of.clear()
+        self.readings.clear()
 
     def settings(self, path: Path) -> Settings:
         """Return the settings for a machine; those that are wrong do not count here: the command tells."""
@@ -94,13 +99,9 @@ class Sources:
     def reading(self, machine: Path, again: bool = False) -> Reading:
         """Return a machine as it is now; only lists that have changed are parsed again."""
         if again or machine not in self.readings:
-            before = self.readings.get(machine)
-            known = {} if before is None else {_normal(path): one for path, one in before.documents.items()}
-            kept = {path: one for path, one in known.items() if path in self._documents and one.outer is None}
-            documents = {**kept, **self._documents}
-            reading = read_machine(
-                machine, documents=documents.values(), beside_disk=True, axis_type=self.settings(machine).axis_type
-            )
+            documents = self._documents.values()
+            axis_type = self.settings(machine).axis_type
+            reading = read_machine(machine, documents=documents, beside_disk=True, axis_type=axis_type)
             self.readings[machine] = reading
             for path, one in reading.documents.items():
                 if one.outer is None:
