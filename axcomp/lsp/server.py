@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -118,7 +120,8 @@ def _diagnostic(finding: Finding, lines: Sequence[str], base: str) -> types.Diag
 
 def serve() -> None:
     """Serve an editor over standard input and output until it ends."""
-    make_server().start_io()
+    # It closes what it has written to; the command has to flush what remains.
+    make_server().start_io(sys.stdin.buffer, os.fdopen(os.dup(sys.stdout.fileno()), "wb"))
 
 
 def make_server() -> _Server:
