@@ -10,7 +10,6 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
-from xml.sax.saxutils import quoteattr
 
 from ..kinds import Severity
 from ..lists import Finding
@@ -144,19 +143,19 @@ def _junit(checked: Sequence[Checked], settings: Settings, version: str) -> str:
         cases = []
         failures = 0
         for finding in one.findings:
-            name = quoteattr(_plain(f"{finding.file}:{finding.line} {finding.code}"))
-            head = f"<testcase name={name} classname={quoteattr(_plain(finding.file))}"
-            said = quoteattr(_plain(_said(finding)))
+            name = _quoted(_plain(f"{finding.file}:{finding.line} {finding.code}"))
+            head = f"<testcase name={name} classname={_quoted(_plain(finding.file))}"
+            said = _quoted(_plain(_said(finding)))
             if finding.severity.value in failing:
                 failures += 1
-                cases.append(f"{head}><failure message={said} type={quoteattr(finding.code)}/></testcase>")
+                cases.append(f"{head}><failure message={said} type={_quoted(finding.code)}/></testcase>")
             else:
                 cases.append(f"{head}><system-out>{_escaped(_plain(_said(finding)))}</system-out></testcase>")
         if not cases:
-            path = quoteattr(_plain(str(one.path)))
+            path = _quoted(_plain(str(one.path)))
             cases.append(f"<testcase name={path} classname={path}/>")
         total, failed = total + len(cases), failed + failures
-        suite = quoteattr(_plain(str(one.path)))
+        suite = _quoted(_plain(str(one.path)))
         counts = f'tests="{len(cases)}" failures="{failures}" errors="0"'
         suites.append(f"<testsuite name={suite} {counts}>{''.join(cases)}</testsuite>")
     head = f'<testsuites name="axcomp" tests="{total}" failures="{failed}" errors="0">'
@@ -172,6 +171,12 @@ def _plain(text: str) -> str:
 
 def _escaped(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _quoted(text: str) -> str:
+    """Return a text as the value of an attribute."""
+    text = _escaped(text).replace('"', "&quot;").replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
+    return f'"{text}"'
 
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
