@@ -32,6 +32,8 @@ def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("pyproject.toml", "README.md", "build_fmu.py"):
         shutil.copy(ROOT / name, folder)
+    (folder / "docs").mkdir()
+    shutil.copy(ROOT / "docs" / "findings.md", folder / "docs")
     return folder
 
 
@@ -61,3 +63,10 @@ def test_an_installed_wheel_builds_in_any_folder_what_the_checkout_builds(
     run(sys.executable, "build_fmu.py", cwd=checkout)
     for name in ("axcomp.fmu", "plant.fmu"):
         assert (tmp_path / name).read_bytes() == (checkout / name).read_bytes()
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_explains_findings(installed: Path, tmp_path: Path) -> None:
+    assert "## AXC-GAP" in run(installed / "axcomp", "check", "--explain", "AXC-GAP", cwd=tmp_path)
+    page = run(installed / "python", "-c", "from axcomp.lint import PAGE; print(PAGE)", cwd=tmp_path).strip()
+    assert "## AXC-GAP" in Path(page).read_text(encoding="utf-8")

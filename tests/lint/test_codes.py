@@ -48,7 +48,7 @@ def test_a_code_is_explained_on_the_command_line(capsys: pytest.CaptureFixture[s
 
 def test_the_page_travels_in_the_wheel() -> None:
     text = (Path(__file__).parents[2] / "pyproject.toml").read_text()
-    assert '"docs/findings.md" = "axcomp/_docs/findings.md"' in text
+    assert 'only-include = ["axcomp", "docs/findings.md"]\nsources = { "docs" = "axcomp/_docs" }' in text
 
 
 def test_a_binary_file_is_found(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
