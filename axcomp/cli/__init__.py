@@ -15,7 +15,9 @@ from .. import __version__
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
-    "check": "check the lists of a machine",
+    "check": "check the lists of machines",
+    "format": "write lists in a layout",
+    "lsp": "serve editors: findings while one types, and all about an entry",
     "parameters": "list the parameters that are understood",
     "run": "run setpoints and NC commands through a machine",
     "demo": "couple compensation and plant, and show what is left of the errors",
@@ -43,8 +45,9 @@ EXTRA = {
     "show": ("rich",),
     "diagnose": ("openpyxl",),
     "replay": ("rich",),
+    "lsp": ("pygls",),
 }
-"""Packages of the extra ``workbench`` without which a command does nothing."""
+"""Packages without which a command does nothing: of the extra ``lsp``, and of ``workbench``."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -64,7 +67,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if name not in missing:
                 subparsers.add_parser(name, help=what)
     if missing:
-        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(missing)}."
+        extras = ",".join(sorted({_extra_of(name) for name in missing}))
+        parser.epilog = f"With pip install 'axcomp[{extras}]' there are also: {', '.join(missing)}."
     options = parser.parse_args(given)
     try:
         status: int = options.do(options)
@@ -95,7 +99,11 @@ def _module(name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
             raise
-        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
+        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[{_extra_of(name)}]'") from None
+
+
+def _extra_of(command: str) -> str:
+    return "lsp" if command == "lsp" else "workbench"
 
 
 def _print_anything() -> None:

@@ -14,7 +14,7 @@ from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
 from ..plant import package_plant
 from .axis_type import add_axis_type
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.

@@ -22,7 +22,7 @@ from ..measurement import (
     read_positionings,
 )
 from ..model import symbol
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 
 _EPILOG = """\
 A table, as text or .xlsx, has the columns target, run, direction, deviation (mm and µm unless the first row says

@@ -12,9 +12,8 @@ from ..analysis.judgement import Evidence
 from ..lists import Reading, read_machine
 from ..measurement import evaluate_robustly
 from ..report import REPEATS, ProtocolFields, make_protocol, make_report
-from .check import STATUS_MAX
 from .judgement_options import add_judgement_options, evidence_of
-from .lists import add_lists_command, failed
+from .lists import STATUS_MAX, add_lists_command, failed
 
 _EPILOG = """\
 The page holds the findings, a summary of the machine, a picture of every table, the judgement of the tables, the

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 
 if TYPE_CHECKING:
     import pandas as pd

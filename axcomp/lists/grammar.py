@@ -151,7 +151,7 @@ def entries(text: str, report: Report, take: Callable[[Stretch], bool] | None = 
             continue
         name, first, second, tail, integer, rest = found.groups("")
         if not first:
-            if not integer and not rest and name.lower() == "end":
+            if not integer and not rest and name.lower() in ("end", "ende"):
                 _report_after_end(lines, number, report)
                 return
             yield Entry(name, (), integer, rest, number)
