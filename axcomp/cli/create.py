@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..fit import FITS, Creation, Fit, Options, create, fit_of
-from ..measurement import MeasurementError, joined
+from ..measurement import MeasurementError
 
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -52,7 +52,7 @@ def _do_create(args: argparse.Namespace) -> int:
     fit: type[Fit[Any, Any]] = args.fit
     given = vars(args)
     try:
-        readings = joined([fit.read(path) for path in args.files])
+        readings = fit.load(args.files, given)
         options = Options(**{item.name: given[item.name] for item in fields(Options) if item.name in given})
         creation = create(fit.name, readings, fit.open(args.into, given), options)
         written = [] if args.dry_run else creation.write(args.output)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .hat_functions import hats as hats
     from .plane import Flatness as Flatness
     from .registry import FITS as FITS, create as create, fit_of as fit_of
+    from .reversal import Circle as Circle, Peaks as Peaks, ReversingAxis as ReversingAxis, Tuned as Tuned, tune as tune
     from .target_list import TargetList as TargetList
     from .thinning import closest as closest, deviation as deviation, fewest as fewest
     from .volumetric_basis import Sought as Sought, sought_errors as sought_errors
@@ -37,6 +38,7 @@ else:
         hat_functions="hats",
         plane="Flatness",
         registry="FITS create fit_of",
+        reversal="Circle Peaks ReversingAxis Tuned tune",
         target_list="TargetList",
         thinning="closest deviation fewest",
         volumetric_basis="Sought sought_errors",

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import KINDS
-from ..measurement import Readings
+from ..measurement import Readings, joined
 from ..model import shown
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, Report
 from .target_list import TargetList
@@ -44,6 +44,17 @@ NEW_LIST: dict[str, Option] = {
 }
 
 
+TRACE: dict[str, Option] = {
+    "map": {
+        "action": "append",
+        "default": [],
+        "metavar": "COLUMNS",
+        "help": "what the columns of a trace are: velocity=v_ist[mm/s],current=I,time=t[ms]",
+    },
+    "cycle-time": {"type": float, "metavar": "s", "help": "distance of the rows of a trace without time"},
+}
+
+
 def axis_numbers(what: str, count: int | str, field: str = "masters") -> Option:
     """Return the option to give logical numbers of axes."""
     help_text = f"logical {what} (default: as the list says)"
@@ -70,6 +81,10 @@ class Options:
     errors, nodes, scatter : sequence of str, int, float or None
         The errors that are sought, values of one at most, standard deviation of a reading in µm (volumetric); None: all
         of the chain, as many as usual, as the residuals say.
+    bin : float or None
+        Velocities within so many percent count as one (friction).
+    reversal : bool
+        The list is to say what the reversals of a trace propose (friction).
     """
 
     bound: float | None = None
@@ -81,6 +96,8 @@ class Options:
     errors: Sequence[str] | None = None
     nodes: int | None = None
     scatter: float | None = None
+    bin: float | None = None
+    reversal: bool = False
 
 
 class Fit(ABC, Generic[R, T]):
@@ -159,6 +176,11 @@ class Fit(ABC, Generic[R, T]):
         """Read a file; MeasurementError if it cannot be read, or a line of it."""
 
     @classmethod
+    def load(cls, paths: Sequence[Path], given: Mapping[str, Any]) -> R:  # noqa: ARG003
+        """Read files as one measurement; ``given``: values of the command's options."""
+        return joined([cls.read(path) for path in paths])
+
+    @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> Any:
         """Open the list that gets the table; ``given``: values of the command's options."""
         return TargetList(path, given["axis"], given["name"])
@@ -208,6 +230,11 @@ class Fit(ABC, Generic[R, T]):
         """Return the number of entries."""
         return int(np.size(getattr(self.compensation(table), self.counted)))
 
+    @property
+    def settled(self) -> tuple[str, ...]:
+        """Entries that the list is to say besides the table: ends of their names."""
+        return ()
+
     @abstractmethod
     def draw(self, ax: Axes, table: T) -> None:
         """Draw measurement, table and what is left."""
@@ -220,7 +247,7 @@ class Fit(ABC, Generic[R, T]):
 
     def files(self, compensation: Any) -> dict[Path, bytes]:
         """Return the list with the compensation, and what else changes."""
-        data = self.target.with_compensation(self.name, compensation, self.options.max_points)
+        data = self.target.with_compensation(self.name, compensation, self.options.max_points, self.settled)
         return {self.target.path: data}
 
     def figures(self, left: Array) -> dict[str, float]:

@@ -12,7 +12,7 @@ from ..model.face import face
 
 if TYPE_CHECKING:
     from .fmu import package_plant as package_plant, plant_variables as plant_variables
-    from .machine import Plant as Plant, PlantError as PlantError
+    from .machine import MEMORYLESS as MEMORYLESS, REMEMBERING as REMEMBERING, Plant as Plant, PlantError as PlantError
     from .simulated import (
         CYCLE_TIME as CYCLE_TIME,
         acceleration_test as acceleration_test,
@@ -32,7 +32,7 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         fmu="package_plant plant_variables",
-        machine="Plant PlantError",
+        machine="MEMORYLESS Plant PlantError REMEMBERING",
         simulated="CYCLE_TIME acceleration_test deviation flatness friction_current load_plant positioning "
         "straightness",
         simulated_volume="IsoErrors linear_axis_errors table_errors",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +19,9 @@ from .machine import FILE_NAME, Plant
 CYCLE_TIME = 0.001
 
 
-def load_plant(folder: Path) -> Plant:
-    """Return the plant that ``plant.json`` in a model's folder describes."""
-    return Plant.from_file(folder / FILE_NAME)
+def load_plant(folder: Path, **instead: Any) -> Plant:
+    """Return the plant that ``plant.json`` in a model's folder describes, with other entries ``instead``."""
+    return Plant.from_file(folder / FILE_NAME, **instead)
 
 
 def deviation(plant: Plant, axis: str, at: Mapping[str, float], direction: int = 1) -> float:
