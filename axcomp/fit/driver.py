@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import KINDS
-from ..measurement import Readings, joined
+from ..measurement import AxisTrace, Readings, is_trace, joined, read_axis_trace
 from ..model import shown
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, Report
 from .target_list import TargetList
@@ -176,9 +176,23 @@ class Fit(ABC, Generic[R, T]):
         """Read a file; MeasurementError if it cannot be read, or a line of it."""
 
     @classmethod
-    def load(cls, paths: Sequence[Path], given: Mapping[str, Any]) -> R:  # noqa: ARG003
+    def load(cls, paths: Sequence[Path], given: Mapping[str, Any]) -> R:
         """Read files as one measurement; ``given``: values of the command's options."""
-        return joined([cls.read(path) for path in paths])
+        if "map" not in given:
+            return joined([cls.read(path) for path in paths])
+        return joined(
+            [
+                cls.of_trace(read_axis_trace(path, given["map"], given["cycle_time"]))
+                if given["map"] or is_trace(path)
+                else cls.read(path)
+                for path in paths
+            ]
+        )
+
+    @classmethod
+    def of_trace(cls, trace: AxisTrace) -> R:
+        """Return what a trace reads, for kinds with the arguments ``TRACE``."""
+        raise NotImplementedError
 
     @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> Any:

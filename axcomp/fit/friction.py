@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import Friction
-from ..measurement import RUN, AxisTrace, Column, Readings, is_trace, joined, read_axis_trace
+from ..measurement import RUN, AxisTrace, Column, Readings, joined
 from ..plot import DOWN, UP, labelled
 from .creation import CannotCreateError, Report
 from .driver import MAX_POINTS, NEW_LIST, TRACE, Fit, bound
@@ -103,15 +103,15 @@ class FrictionFit(Fit[FrictionReadings, tuple[Array, Array]]):
     @classmethod
     def load(cls, paths: Sequence[Path], given: Mapping[str, Any]) -> FrictionReadings:
         """Read pairs, or traces: files with times, or with columns that are mapped."""
-        found = []
-        for path in paths:
-            if given["map"] or is_trace(path):
-                found.append(FrictionReadings.of(read_axis_trace(path, given["map"], given["cycle_time"])))
-            else:
-                found.append(cls.read(path))
+        found = [super(FrictionFit, cls).load([path], given) for path in paths]
         if len({one.errors is None for one in found}) > 1:
             raise CannotCreateError("traces and pairs of velocity and current do not go together")
         return replace(joined(found), traces=tuple(trace for one in found for trace in one.traces))
+
+    @classmethod
+    def of_trace(cls, trace: AxisTrace) -> FrictionReadings:
+        """Return a reading for each stretch of constant velocity."""
+        return FrictionReadings.of(trace)
 
     def counts_in(self) -> str:
         """Return what the axis is known to count in: velocities of either fit."""

@@ -67,7 +67,7 @@ def steady_of(trace: AxisTrace) -> Steady:
     inertia, error, notes = inertia_of(velocity, acceleration, current, sliding)
     runs = _runs(velocity, noise, trace.cycle) & sliding
     left = current - inertia * acceleration
-    spans = [part for span in _spans(runs) for part in _alike(velocity, noise, *span)]
+    spans = [part for span in spans_of(runs) for part in _alike(velocity, noise, *span)]
     found = [one for span in spans if (one := _stretch(velocity, left, *span, trace.cycle))]
     if not found:
         sentence = f"There is no stretch of {SHORTEST:g} s with a velocity constant within {STEADY:.0%}."
@@ -95,12 +95,12 @@ def inertia_of(velocity: Array, acceleration: Array, current: Array, sliding: Ma
     matrix = matrix[:, used]
     weights = np.ones(len(i))
     for _ in range(12):
-        root = np.sqrt(weights)[:, None]
-        solution = np.linalg.lstsq(matrix * root, i * root[:, 0], rcond=None)[0]
+        weighted = (matrix * weights[:, None]).T
+        inverse = np.linalg.pinv(weighted @ matrix, hermitian=True)
+        solution = inverse @ (weighted @ i)
         residuals = i - matrix @ solution
         spread = 1.4826 * float(np.median(np.abs(residuals))) + 1e-12
         weights = np.minimum(1.0, 1.5 * spread / np.maximum(np.abs(residuals), 1e-300))
-    inverse = np.linalg.pinv((matrix * weights[:, None]).T @ matrix)
     # Neighbours in time are alike: residuals count in groups.
     groups = np.array_split(np.arange(len(i)), min(40, len(i)))
     scores = np.array([(matrix[g] * (weights * residuals)[g, None]).sum(axis=0) for g in groups])
@@ -135,7 +135,8 @@ def _runs(velocity: Array, noise: float, cycle: float) -> Mask:
     return np.asarray(spread <= np.maximum(STEADY * np.abs(velocity), 6.0 * noise))
 
 
-def _spans(mask: Mask) -> list[tuple[int, int]]:
+def spans_of(mask: Mask) -> list[tuple[int, int]]:
+    """Return where a mask is true: first and behind the last place of each stretch."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 

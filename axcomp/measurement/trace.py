@@ -28,6 +28,8 @@ UNITS = {
     "velocity": "mm/s",
     "acceleration": "mm/s2",
     "current": "",
+    "position1": "mm",
+    "position2": "mm",
     "master_setpoint": "mm",
     "master_position": "mm",
     "master_velocity": "mm/s",
