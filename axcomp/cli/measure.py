@@ -16,10 +16,12 @@ from ..measurement import (
     MeasurementError,
     Positioning,
     evaluate,
+    is_circular,
     joined,
     read_positioning,
 )
 from ..model import symbol
+from . import circular
 from .check import STATUS_MAX
 
 _EPILOG = """\
@@ -30,6 +32,7 @@ examples:
   axcomp measure x.rtl
   axcomp measure x.csv --plot x.png --device 0.5 --drift 0.8
   axcomp measure x_before.csv x_after.csv --format json
+  axcomp measure ccw.csv cw.csv --together --plot circle.png
 """
 
 
@@ -37,7 +40,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "measure",
-        description="Evaluates positioning measurements by ISO 230-2: accuracy, repeatability, reversal.",
+        description="Evaluates positioning measurements by ISO 230-2 (accuracy, repeatability, reversal) and circular "
+        "tests by ISO 230-4 (columns angle or time and deviation, or x and y).",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -45,6 +49,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--together", action="store_true", help="the files are runs of one measurement")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draw means, ±2s bands and readings")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
+    circular.add_options(parser)
     conditions = parser.add_argument_group("conditions of the test, for expanded uncertainties (k = 2); linear axes")
     for one in fields(Conditions):
         name, about = f"--{one.name.replace('_', '-')}", one.metadata
@@ -53,6 +58,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_measure(args: argparse.Namespace) -> int:
+    if all(is_circular(path) for path in args.files):
+        return circular.measure(args)
     measurements: list[Positioning] = []
     errors = 0
     for path in args.files:

@@ -7,6 +7,19 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
+    from .circles import (
+        Circle as Circle,
+        Zone as Zone,
+        least_squares_circle as least_squares_circle,
+        minimum_zone as minimum_zone,
+    )
+    from .circular import (
+        CircularPath as CircularPath,
+        CircularTest as CircularTest,
+        is_circular as is_circular,
+        joined_tests as joined_tests,
+        read_circular as read_circular,
+    )
     from .columns import (
         ANGLES as ANGLES,
         LENGTHS as LENGTHS,
@@ -15,6 +28,14 @@ if TYPE_CHECKING:
         MeasurementError as MeasurementError,
     )
     from .iso230 import PARAMETERS as PARAMETERS, SYMBOLS as SYMBOLS, Iso230Result as Iso230Result, evaluate as evaluate
+    from .iso230_4 import (
+        AFTER as AFTER,
+        BEFORE as BEFORE,
+        CircularResult as CircularResult,
+        PathResult as PathResult,
+        evaluate_circular as evaluate_circular,
+        window_of as window_of,
+    )
     from .mapping import columns_chosen as columns_chosen, unit_factor as unit_factor
     from .positioning import (
         TARGET_DIGITS as TARGET_DIGITS,
@@ -30,8 +51,11 @@ if TYPE_CHECKING:
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
+        circles="Circle Zone least_squares_circle minimum_zone",
+        circular="CircularPath CircularTest is_circular joined_tests read_circular",
         columns="ANGLES Column Columns LENGTHS MeasurementError",
         iso230="Iso230Result PARAMETERS SYMBOLS evaluate",
+        iso230_4="AFTER BEFORE CircularResult PathResult evaluate_circular window_of",
         mapping="columns_chosen unit_factor",
         positioning="Positioning TARGET_DIGITS angular read_positioning unit_of",
         quadrants="peak_of",
