@@ -8,6 +8,11 @@ from ..model.face import face
 
 if TYPE_CHECKING:
     from .axis_list import AxisList as AxisList
+    from .circle_tuning import (
+        TunedAxis as TunedAxis,
+        plant_description as plant_description,
+        tune_on_circle as tune_on_circle,
+    )
     from .creation import (
         LEFT_OUT as LEFT_OUT,
         MEASURED as MEASURED,
@@ -31,6 +36,7 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         axis_list="AxisList",
+        circle_tuning="TunedAxis plant_description tune_on_circle",
         creation="CannotCreateError Creation LEFT_OUT MEASURED PREDICTED",
         crosstalk="AccelerationTests",
         driver="Fit Options",

@@ -55,9 +55,15 @@ class ReversingAxis:
     axis : str
         Its name there.
     circle : Circle
+    before, after : int
+        Cycles around the reversal that are looked at.
+    play : float
+        By which the slide stays behind after it, mm or °.
     """
 
-    def __init__(self, plant: Plant, axis: str, circle: Circle, before: int = BEFORE, after: int = AFTER) -> None:
+    def __init__(
+        self, plant: Plant, axis: str, circle: Circle, before: int = BEFORE, after: int = AFTER, play: float = 0.0
+    ) -> None:
         self.plant, self.axis = plant, axis
         self.index = plant.names.index(axis)
         self.unit = plant.units[self.index]
@@ -68,13 +74,18 @@ class ReversingAxis:
         angle = move(-RUN_UP, RUN_UP + (after + 100) * rate * CYCLE_TIME, CYCLE_TIME, quick)
         self.reversal = int(np.argmin(np.abs(angle)))
         angle = angle[: self.reversal + after + LATENCY + 2]
+        # The encoder goes back before the slide does: after the reversal that stays outside by all of its play.
+        back = circle.radius - circle.radius * np.cos(np.maximum(angle, 0.0))
+        around = slice(self.reversal - before, self.reversal + after + 1)
+        self.behind = np.minimum(back, max(play, 0.0))[around]
         self.setpoints = Setpoints.through(circle.radius * np.cos(angle), CYCLE_TIME)
 
     def errors(self, friction: Friction | None) -> Iterator[Array]:
         """Yield the error around the positive and the negative end, shape (before + after + 1,), µm or ″ outward."""
         current = self._current(friction)
         for end in (1.0, -1.0):
-            yield end * shown(self.unit).factor * self._error(end * self.setpoints.position, end * current)
+            error = end * self._error(end * self.setpoints.position, end * current)
+            yield shown(self.unit).factor * (error + self.behind)
 
     def peaks(self, friction: Friction | None) -> Peaks:
         """Return the peaks with a friction compensation, or without any."""

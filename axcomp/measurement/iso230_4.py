@@ -93,9 +93,9 @@ class CircularResult:
     notes: tuple[str, ...] = ()
 
     def peak(self, end: str) -> float:
-        """Return the mean peak over the paths where an axis reverses, ``+X`` say."""
-        values = [path.peaks[end] for path in self.paths if np.isfinite(path.peaks[end])]
-        return float(np.mean(values)) if values else float("nan")
+        """Return the peak where an axis reverses, ``+X`` say: the mean size over the paths, the sign of the largest."""
+        values = np.array([path.peaks[end] for path in self.paths if np.isfinite(path.peaks[end])])
+        return float(np.copysign(np.mean(np.abs(values)), values[np.argmax(np.abs(values))])) if len(values) else np.nan
 
     def figures(self) -> dict[str, tuple[float, str]]:
         """Return figures and units by name, in the order of a report."""
