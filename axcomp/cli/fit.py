@@ -18,9 +18,9 @@ SETTLED = ("scaling_factor", "position_delay", "reversal_lookahead", "delay_cycl
 """Entries that are tuned."""
 
 _EPILOG = """\
-The plant is plant.json beside the lists, or --plant: drives with their control, and friction to begin with. Its friction
-is changed until it shows the measured peaks; then the list's parameters are moved until the plant shows least of them.
-The table stays: axcomp create friction makes it.
+The plant is plant.json beside the lists, or --plant: drives with their control, and friction to begin with. Its
+friction is changed until it shows the measured peaks; then the list's parameters are moved until the plant shows least
+of them. The table stays: axcomp create friction makes it.
 
 examples:
   axcomp fit ccw.csv cw.csv --machine models/three_axis

@@ -27,8 +27,9 @@ from .reversal import Circle, Peaks, ReversingAxis, Tuned, tune
 PLAYS = (5e-4, 5e-3)
 STARTS = (0.003, 0.01, 0.03)
 """Play and pre-sliding that are begun with, mm."""
+TAKE_UP = (2e-4, 0.05)
 PRESLIDING = (2e-4, 0.5)
-"""Within which it is looked for, mm."""
+"""Travels within which they are looked for, mm."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class TunedAxis:
     presliding, level, asymmetry : float
         Of the friction found, mm, as a share of that in ``plant.json``, and see ``plant``.
     play : float
-        By which the slide stays behind, µm.
+        By which the slide stays behind, mean of both ends, µm.
     left : float
         Root mean square of measured − modelled error around the reversals, µm.
     tuned : Tuned
@@ -112,7 +113,9 @@ def tune_on_circle(
 def _grid(circle: Circle) -> Array:
     """Return angles on the way from the reversal at which cycles end, °."""
     step = np.degrees(circle.feed / circle.radius * CYCLE_TIME)
-    return np.asarray(step * np.arange(-int(BEFORE / step), int(AFTER / step) + 1))
+    cycles = np.arange(-int(BEFORE / step), int(AFTER / step))
+    # A drive's reference is the mean of two setpoints: half a cycle further.
+    return np.asarray(step * (cycles + 0.5))
 
 
 def _measured(result: CircularResult, axis: str, circle: Circle) -> list[Array]:
@@ -139,11 +142,11 @@ class _Model:
     def __init__(self, description: Mapping[str, Any], sub_step: float, circle: Circle) -> None:
         self.description, self.sub_step, self.circle = description, sub_step, circle
         grid = _grid(circle)
-        self.before, self.after = int(np.sum(grid < -1e-9)), int(np.sum(grid > 1e-9))
+        self.before, self.after = int(np.sum(grid < 0.0)), int(np.sum(grid > 0.0)) - 1
         self.cosine = np.cos(np.radians(grid))
 
     def axis(self, x: Array) -> ReversingAxis:
-        """Return the axis with log pre-sliding, level, asymmetry and play (mm)."""
+        """Return the axis with log pre-sliding, level, asymmetry, log take-up and play at either end (mm)."""
         friction = self.description["friction"]
         level = float(x[1])
         changed = {
@@ -157,7 +160,8 @@ class _Model:
         }
         axis = {**self.description, "friction": changed, "errors": {}}
         plant = Plant({"sub_step": self.sub_step, "axes": [axis]})
-        return ReversingAxis(plant, axis["name"], self.circle, self.before, self.after, float(x[3]))
+        plays, take_up = (float(x[4]), float(x[5])), float(np.exp(x[3]))
+        return ReversingAxis(plant, axis["name"], self.circle, self.before, self.after, plays, take_up)
 
     def fit(self, name: str, measured: list[Array], friction: Friction, acting: bool) -> TunedAxis:
         """Return the friction that comes closest, and the parameters that serve best on it."""
@@ -167,17 +171,18 @@ class _Model:
             modelled = self.axis(x).errors(friction if acting else None)
             return np.concatenate([_bent(self.cosine * m) - s for m, s in zip(modelled, shape, strict=True)])
 
-        low, high = (np.log(PRESLIDING[0]), 0.2, -0.5, 0.0), (np.log(PRESLIDING[1]), 5.0, 0.5, 0.1)
-        starts = [np.array([np.log(start), 1.0, 0.0, play]) for start in STARTS for play in PLAYS]
+        low = (np.log(PRESLIDING[0]), 0.2, -0.5, np.log(TAKE_UP[0]), -0.1, -0.1)
+        high = (np.log(PRESLIDING[1]), 5.0, 0.5, np.log(TAKE_UP[1]), 0.1, 0.1)
+        starts = [np.array([np.log(start), 1.0, 0.0, np.log(play), play, play]) for start in STARTS for play in PLAYS]
         best = min(starts, key=lambda x: float(np.sum(off(x) ** 2)))
-        scale = (1.0, 0.3, 0.2, 2e-3)
-        found = least_squares(off, best, bounds=(low, high), x_scale=scale, diff_step=[1e-3] * 4, xtol=1e-4, ftol=1e-5)
+        scale = (1.0, 0.3, 0.2, 1.0, 2e-3, 2e-3)
+        found = least_squares(off, best, bounds=(low, high), x_scale=scale, diff_step=[1e-3] * 6, xtol=1e-4, ftol=1e-5)
         axis = self.axis(found.x)
         modelled = axis.peaks(friction if acting else None)
         peaks = Peaks(*(float(curve[np.argmax(np.abs(curve))]) for curve in shape))
         left = float(np.sqrt(np.mean(found.fun**2)))
-        log, level, asymmetry, play = found.x.tolist()
-        friction_found = float(np.exp(log)), level, asymmetry, shown(axis.unit).factor * play
+        log, level, asymmetry, _, *plays = found.x.tolist()
+        friction_found = float(np.exp(log)), level, asymmetry, shown(axis.unit).factor * float(np.mean(plays))
         return TunedAxis(name, peaks, modelled, *friction_found, left, tune(axis, friction))
 
 

@@ -57,35 +57,40 @@ class ReversingAxis:
     circle : Circle
     before, after : int
         Cycles around the reversal that are looked at.
-    play : float
-        By which the slide stays behind after it, mm or °.
+    plays : pair of float
+        By which the slide stays behind after it, at the positive and at the negative end, mm or °.
+    take_up : float
+        Travel over which that is taken up, mm or °.
     """
 
     def __init__(
-        self, plant: Plant, axis: str, circle: Circle, before: int = BEFORE, after: int = AFTER, play: float = 0.0
+        self,
+        plant: Plant,
+        axis: str,
+        circle: Circle,
+        before: int = BEFORE,
+        after: int = AFTER,
+        plays: tuple[float, float] = (0.0, 0.0),
+        take_up: float = 1e-3,
     ) -> None:
         self.plant, self.axis = plant, axis
         self.index = plant.names.index(axis)
         self.unit = plant.units[self.index]
         self.before, self.after = before, after
+        self.plays, self.take_up = plays, take_up
         self._known: dict[Friction, Array] = {}
         rate = circle.feed / circle.radius
         quick = Limits(rate, 20.0 * rate, 1e3 * rate)
         angle = move(-RUN_UP, RUN_UP + (after + 100) * rate * CYCLE_TIME, CYCLE_TIME, quick)
         self.reversal = int(np.argmin(np.abs(angle)))
         angle = angle[: self.reversal + after + LATENCY + 2]
-        # The encoder goes back before the slide does: after the reversal that stays outside by all of its play.
-        back = circle.radius - circle.radius * np.cos(np.maximum(angle, 0.0))
-        around = slice(self.reversal - before, self.reversal + after + 1)
-        self.behind = np.minimum(back, max(play, 0.0))[around]
         self.setpoints = Setpoints.through(circle.radius * np.cos(angle), CYCLE_TIME)
 
     def errors(self, friction: Friction | None) -> Iterator[Array]:
         """Yield the error around the positive and the negative end, shape (before + after + 1,), µm or ″ outward."""
         current = self._current(friction)
         for end in (1.0, -1.0):
-            error = end * self._error(end * self.setpoints.position, end * current)
-            yield shown(self.unit).factor * (error + self.behind)
+            yield shown(self.unit).factor * self._error(end * self.setpoints.position, end * current, end)
 
     def peaks(self, friction: Friction | None) -> Peaks:
         """Return the peaks with a friction compensation, or without any."""
@@ -107,17 +112,21 @@ class ReversingAxis:
         names = {"setpoint": "position", "velocity": "velocity", "acceleration": "acceleration"}
         return np.asarray(engine.run({f"A.{n}": getattr(self.setpoints, of) for n, of in names.items()})["A.current"])
 
-    def _error(self, raw: Array, current: Array) -> Array:
-        """Return encoder − setpoint around the reversal, mm or °: friction acts on the drive, whatever the geometry."""
+    def _error(self, raw: Array, current: Array, end: float) -> Array:
+        """Return slide − setpoint around the reversal, mm or ° outward: play, and friction, which acts on the drive."""
         drive, count = self.plant.drives[self.index], max(1, math.ceil(CYCLE_TIME / self.plant.sub_step - 1e-6))
         drive.rest_at(float(raw[0]))
         measured = np.empty(len(raw))
         for cycle, (position, added) in enumerate(zip(raw.tolist(), current.tolist(), strict=True)):
             drive.advance(position, added, CYCLE_TIME, count)
             measured[cycle] = drive.position
-        reference = 0.5 * (raw[1:] + raw[:-1])
+        measured *= end
+        # The encoder goes back before the slide does, which stays outside by all of its play in the end.
+        back = np.maximum.accumulate(measured) - measured
+        slide = measured + self.plays[end < 0.0] * np.minimum(back / self.take_up, 1.0)
+        reference = 0.5 * end * (raw[1:] + raw[:-1])
         around = slice(self.reversal - self.before, self.reversal + self.after + 1)
-        return measured[LATENCY - 1 :][around] - reference[LATENCY - 2 :][around]
+        return np.asarray(slide[LATENCY - 1 :][around] - reference[LATENCY - 2 :][around])
 
 
 @dataclass(frozen=True)

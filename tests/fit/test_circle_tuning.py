@@ -96,7 +96,7 @@ def test_the_command_predicts_and_writes(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("header", "words", "said"),
     [
-        ("# radius: 25\n", [], "the feed is not known"),
+        ("# radius: 25\n", [], "feed of the test is not known"),
         ("# radius: 25\n# feed: 3000\n# plane: AB\n", [], "neither A nor B has a friction compensation"),
         ("# radius: 25\n# feed: 3000\n", ["--plant", "nowhere.json"], "nowhere.json"),
     ],
