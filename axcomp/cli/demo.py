@@ -15,7 +15,7 @@ Largest errors: true position of the tool against the raw setpoint, without and 
 one), the others on. Geometric errors at standstill, crosstalk while the other axis changes speed, friction as peaks at
 the reversals of a circle. TCP: the tool tip as the workpiece sees it, with and without all volumetric compensations,
 at standstill. The FMUs step side by side: a delay of one communication step between them is inherent.
-No table removes: growth with temperature, lag and ringing of the structure, compliance between the tests; of friction
+No table removes: thermal growth, lag and ringing of the structure, compliance between the tests; of friction
 the peak that its table leaves with the best position_delay, reversal_lookahead, delay_cycles and scaling_factor."""
 
 MEMORY = "Plant that remembers: friction with pre-sliding, different per direction; a structure that swings; growth"

@@ -38,7 +38,7 @@ Every input starts with 0 or false, which means what the lists say: a host that 
 A switch (`NAME.KIND.switch`, `volumetric[j].switch`) is 0 for automatic activation as the lists say, 1 for on, -1 for
 off. Its changes are the commands; the same value again commands nothing, so a manual compensation which program end
 has switched off needs 0 or -1 before it gets 1 again. Any other value commands nothing and sets `NAME.error`.
-`temperature.offset` and `temperature.coefficient` are added to what the lists say.
+`NAME.KIND.offset` and `NAME.KIND.coefficient` are added to what the lists say.
 
 A value reference is `{block} · block + identifier`, the same in every FMU: block {machine} is the machine's, block
 {axis} + i that of axis i = 0 … 31 in the order of the lists, block {volumetric} + j that of volumetric compensation
