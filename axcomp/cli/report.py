@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from ..lists import read_machine
+from ..plot import NoPlotlyError
 from ..report import REPEATS, make_report
 from .check import STATUS_MAX
 from .judgement_options import add_judgement_options, evidence_of
@@ -16,7 +18,7 @@ from .lists import add_lists_command, failed
 _EPILOG = """\
 The page holds the findings, a summary of the machine, a picture of every table, the judgement of the tables, the
 evaluation of the measurements by ISO 230-2, the budget along the input file, and the cost of a cycle. It needs nothing
-beside it and no script. The exit status is the number of options that could not be followed; findings do not count.
+beside it. The exit status is the number of options that could not be followed; findings do not count.
 
 examples:
   axcomp report models/three_axis --output report.html
@@ -33,6 +35,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--repeats", type=int, default=REPEATS, metavar="N", help=f"of the cost of a cycle ({REPEATS}); 0: without"
     )
+    parser.add_argument("--interactive", action="store_true", help="volumetric errors in 3-D, by Plotly's script")
     add_judgement_options(parser)
 
 
@@ -46,7 +49,11 @@ def _do_report(options: argparse.Namespace) -> int:
         return failed("report", f"there is no folder {options.output.parent}")
     evidence = evidence_of(options, reading.machine)
     report = make_report(reading, evidence, cycle_time=options.cycle_time, repeats=options.repeats)
-    options.output.write_text(report.html(), encoding="utf-8")
+    try:
+        html = replace(report, turning=options.interactive).html()
+    except NoPlotlyError as error:
+        return failed("report", str(error))
+    options.output.write_text(html, encoding="utf-8")
     for note in report.notes:
         print(f"axcomp report: {note}", file=sys.stderr)
     if options.format == "json":
