@@ -172,6 +172,8 @@ static bool advance_switch(const SwitchTable *table, SwitchState *state, bool re
         }
     } else if (step > 0) {
         step -= 1;
+    } else {
+        /* nothing */
     }
     if (step != state->step) {
         double weight = ramp(step, table->cycles);
@@ -283,6 +285,8 @@ static double backlash_value(const BacklashTable *table, BacklashState *state, i
         }
     } else if (state->step > 0) {
         state->step -= 1;
+    } else {
+        /* nothing */
     }
     return backlash_at(table, state);
 }
@@ -941,6 +945,8 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
         }
     } else if (state->reversal_step < table->reversal_cycles) {
         state->reversal_step += 1;
+    } else {
+        /* nothing */
     }
 
     return leadscrew_at(pool, table, state, position);
@@ -1216,6 +1222,8 @@ static void adopt_compensation(int32_t kind, const CompensationTables *before, c
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
         adopt_friction(&before->friction, &after->friction, &states->friction);
+    } else {
+        /* nothing */
     }
 }
 
@@ -1232,6 +1240,8 @@ static void move_compensation(int32_t kind, CompensationTables *tables, int32_t 
         move_leadscrew(&tables->leadscrew, by);
     } else if (kind == FRICTION) {
         move_friction(&tables->friction, by);
+    } else {
+        /* nothing */
     }
 }
 
@@ -1392,6 +1402,8 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
             }
         } else if (!axis->started) {
             state->enable = given->enable[kind];
+        } else {
+            /* nothing */
         }
         if (!axis->held) {
             out->active[kind] = state->step > 0;
@@ -2043,6 +2055,8 @@ static double factor_of(const VolumetricInputs *given, int32_t letter)
         factor = given->factor_y;
     } else if (letter == LINEAR - 1) {
         factor = given->factor_z;
+    } else {
+        /* nothing */
     }
     if (factor >= 0.0) {
         return double_min(factor, 1.0);
@@ -2213,6 +2227,8 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         set_error(table, state, ERROR_PROGRAM_END);
     } else if (table->manual && volumetric->command && !ready) {
         take_command(volumetric, given, false);
+    } else {
+        /* nothing */
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
@@ -2224,6 +2240,8 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         }
     } else if (!volumetric->on && volumetric->command && ready && can_turn_round(volumetric)) {
         switch_on(table, volumetric, state);
+    } else {
+        /* nothing */
     }
 }
 
@@ -2239,6 +2257,8 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->wanted_factor[d] = 1.0;
         }
+    } else {
+        /* nothing */
     }
     for (int32_t b = 0; b < ERRORS; b++) {
         volumetric->section[b] = 0;
@@ -2295,6 +2315,8 @@ static void advance_filters(const VolumetricTable *table, VolumetricState *volum
             volumetric->waiting[d] = false;
         } else if (volumetric->shift[d] != 0.0 && volumetric->release[d] == 0.0 && !volumetric->waiting[d]) {
             take_shift_back(volumetric, d);
+        } else {
+            /* nothing */
         }
     }
     double share = share_of_cycle(table, volumetric);
