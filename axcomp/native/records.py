@@ -9,10 +9,11 @@ import struct
 import textwrap
 from collections.abc import Hashable, Iterator
 from functools import cache
-from typing import Annotated, Any, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, NamedTuple, cast, get_args, get_origin
 
 from ..kernel import AxisTable, VolumetricTable, fields_of
 
+GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
 _LETTERS = {float: "d", int: "i", bool: "b"}
 _FORMATS = {float: "d", int: "i", bool: "?"}
 _C_TYPES = {float: "double", int: "int32_t", bool: "bool"}
@@ -57,8 +58,7 @@ def size_of(cls: Hashable) -> int:
 
 def record_bytes(record: Any) -> bytes:
     """Return the fields of a record: little-endian, without gaps."""
-    cls: Any = type(record)
-    return struct.pack("<" + _format(cls), *_numbers(record))
+    return struct.pack("<" + _format(cast(Hashable, type(record))), *_numbers(record))
 
 
 def _numbers(record: Any) -> Iterator[float]:
