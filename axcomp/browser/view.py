@@ -119,6 +119,7 @@ def _machine(checked: Checked) -> dict[str, Any]:
             *_of_axes(machine),
             *(table for one in machine.volumetric for table in _of_volumetric(machine, one)),
         ],
+        "judged": [str(one) for one in checked.judgement.findings],
         "limits": [one.to_dict() for one in checked.judgement.limits],
         "kernel": kernel,
         "complaint": complaint,

@@ -56,7 +56,7 @@ def _prebuilt() -> Path:
 
 
 def wasm_kernel() -> bytes:
-    """Return the kernel in WebAssembly: the one that comes with the package, or compiled where its sources have changed.
+    """Return the kernel in WebAssembly: what comes with the package, or is compiled where its sources have changed.
 
     Raises
     ------

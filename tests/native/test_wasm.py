@@ -26,7 +26,7 @@ from axcomp.runtime import compile_tables
 
 ROOT = Path(__file__).parents[2]
 NODE = shutil.which("node")
-MACHINES = sorted(path.parent.name for path in models().glob("*/hochlauf.lis")) + ["rotary_table", "warm_axis"]
+MACHINES = sorted(path.name for path in models().iterdir() if any(path.glob("*.lis")))
 
 
 @pytest.fixture(scope="session")
