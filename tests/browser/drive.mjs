@@ -22,9 +22,21 @@ told.native = await page.textContent("#native");
 
 const text = (selector) => page.$$eval(selector, (found) => found.map((one) => one.textContent));
 
+/** Drop a folder as a hand does. */
+async function dropped(folder) {
+  const session = await page.context().newCDPSession(page);
+  await page.evaluate(() => scrollTo(0, 0));
+  const box = await page.locator("#drop").boundingBox();
+  const data = { items: [], files: [folder], dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"]) {
+    await session.send("Input.dispatchDragEvent", { type, x: box.x + 20, y: box.y + 20, data });
+  }
+}
+
 for (const folder of job.folders) {
   await page.evaluate(() => document.getElementById("result").replaceChildren());
-  await page.setInputFiles(folder.endsWith(".lis") ? "#files" : "#folder", folder);
+  if (job.drop === folder) await dropped(folder);
+  else await page.setInputFiles(folder.endsWith(".lis") ? "#files" : "#folder", folder);
   await page.waitForFunction(() => document.querySelector("#findings") !== null && !document.body.matches(".busy"));
   const more = page.locator("#findings button");
   if ((await more.count()) > 0) await more.click();

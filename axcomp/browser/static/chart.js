@@ -13,7 +13,7 @@
 const SVG = "http://www.w3.org/2000/svg";
 const WIDTH = 560;
 const HEIGHT = 260;
-const EDGE = { left: 58, right: 14, top: 12, bottom: 42 };
+const EDGE = { left: 66, right: 14, top: 12, bottom: 42 };
 const INSIDE = { width: WIDTH - EDGE.left - EDGE.right, height: HEIGHT - EDGE.top - EDGE.bottom };
 
 /**
@@ -121,8 +121,6 @@ export function curveChart(curves) {
     }
     inner.append(
       svg("text", { x: EDGE.left + INSIDE.width / 2, y: HEIGHT - 6, class: "name" }, named(curves[0].over)),
-      svg("text", { transform: `translate(13 ${EDGE.top + INSIDE.height / 2}) rotate(-90)`, class: "name" },
-        named({ ...curves[0].of, axis: "" })),
     );
     const lines = svg("g", { "clip-path": `url(#${clip})` });
     for (const [k, curve] of curves.entries()) {
@@ -216,7 +214,7 @@ export function curveChart(curves) {
   });
   draw();
   const several = curves.length > 1 || curves[0].label !== "";
-  const legend = html("div", { class: "legend" },
+  const legend = html("div", { class: "legend" }, html("span", {}, named({ ...curves[0].of, axis: "" })),
     ...(several ? curves.map((curve, k) => html("span", { class: `key key${k % 6}` }, curve.label)) : []));
   const notes = [...new Set(curves.map((curve) => curve.note))].filter((note) => note).join("; ");
   return { element: html("figure", {}, legend, frame, readout, notes ? html("small", {}, notes) : ""), follow };
@@ -253,7 +251,7 @@ export function mapChart(part) {
   const [low, high] = span(places.map(([, y]) => y));
   const cell = part.shape === "grid"
     ? [INSIDE.width / part.x.length, INSIDE.height / part.y.length]
-    : [28, 22];
+    : [62, 30];
   const room = [INSIDE.width - cell[0], INSIDE.height - cell[1]];
   /** @param {number} x */
   const across = (x) => EDGE.left + cell[0] / 2 + (room[0] * (x - left)) / (right - left);
@@ -287,7 +285,8 @@ export function mapChart(part) {
     svg("text", { transform: `translate(13 ${EDGE.top + INSIDE.height / 2}) rotate(-90)`, class: "name" },
       named(part.over[1])),
   );
-  const label = `${part.label ? `${part.label}, ` : ""}${part.of.unit}`;
+  const range = `${figure(Math.min(...values))} … ${figure(Math.max(...values))} ${part.of.unit}`;
+  const label = part.label ? `${part.label}: ${range}` : range;
   return html("figure", {}, html("div", { class: "legend" }, html("span", {}, label)), frame, readout);
 }
 

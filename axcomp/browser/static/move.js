@@ -7,11 +7,12 @@ import { figure, html } from "./chart.js";
 
 const SHOWN = /** @type {Record<string, [number, string]>} */ ({ mm: [1e3, "µm"], "°": [3600, "″"], deg: [3600, "″"] });
 const ACCELERATION = 2000; // mm/s² or °/s²
+const ROUNDING = 1e-6; // mm or °
 const CYCLES = 100; // in a frame at most
 const TRACE = 300; // frames in the picture
 
 /**
- * One step of a setpoint towards its target, within feed and acceleration.
+ * One step of a setpoint towards its target, within feed and acceleration, never beyond it.
  * @param {{s: number, v: number, a: number}} motion
  * @param {number} target
  * @param {number} feed
@@ -19,14 +20,14 @@ const TRACE = 300; // frames in the picture
  */
 export function step(motion, target, feed, dt) {
   const way = target - motion.s;
-  const wanted = Math.sign(way) * Math.min(feed, Math.sqrt(2 * ACCELERATION * Math.abs(way)));
   const most = ACCELERATION * dt;
-  let v = motion.v + Math.min(Math.max(wanted - motion.v, -most), most);
-  if (Math.abs(way) <= most * dt && Math.abs(motion.v) <= 2 * most) v = way / dt;
+  // As fast as it can still be stopped from, after this step.
+  const stoppable = Math.sqrt(most * most + 2 * ACCELERATION * Math.abs(way)) - most;
+  const wanted = Math.sign(way) * Math.min(feed, stoppable);
+  const v = motion.v + Math.min(Math.max(wanted - motion.v, -most), most);
   motion.a = (v - motion.v) / dt;
-  motion.s = v * dt === way ? target : motion.s + v * dt;
   motion.v = v;
-  if (motion.s === target && Math.abs(v) <= 2 * most) motion.v = 0;
+  motion.s = Math.abs(way - v * dt) < ROUNDING ? target : motion.s + v * dt;
 }
 
 /**
@@ -47,6 +48,22 @@ export function moveSection(kernel, data, axes, ranges, moved) {
    * @param {string} quantity
    */
   const place = (variables, axis, quantity) => variables.findIndex((v) => v.axis === axis && v.quantity === quantity);
+  /**
+   * @param {string} name
+   * @param {number} n place of its input
+   */
+  function switchOf(name, n) {
+    const box = html("select", { "aria-label": name });
+    for (const [value, text] of [["0", "as the lists say"], ["1", "on"], ["-1", "off"]]) {
+      box.append(html("option", { value }, text));
+    }
+    box.addEventListener("change", () => {
+      row[n] = Number(box.value);
+    });
+    return box;
+  }
+  /** @type {((values: Float64Array) => void)[]} */
+  const states = [];
   const dt = data.cycleTime;
   let feed = 50;
 
@@ -68,8 +85,7 @@ export function moveSection(kernel, data, axes, ranges, moved) {
       const bar = html("span", { class: "bar" });
       const kind = variable.quantity.split(".")[0];
       const active = place(outputs, k, `${kind}.active`);
-      const name = variable.quantity === "correction" ? "sum" : variable.quantity === "setpoint_shift"
-        ? "shift by NO_MOVE" : kind;
+      const name = { correction: "sum", setpoint_shift: "shift" }[variable.quantity] ?? kind;
       const label = html("span", { class: "kind" }, name);
       const line = html("div", { class: variable.quantity === "correction" ? "value sum" : "value" },
         label, html("span", { class: "track" }, bar), value);
@@ -77,7 +93,7 @@ export function moveSection(kernel, data, axes, ranges, moved) {
       lines.push({ element: line, show: (values) => {
         const shown = values[n] * (small ? small[0] : 1);
         largest = Math.max(largest, Math.abs(shown));
-        value.textContent = `${shown.toFixed(2).replace("-", "−")} ${small ? small[1] : variable.unit}`;
+        value.textContent = `${shown.toFixed(2).replace("-", "−")} ${small ? small[1] : variable.unit}`.trim();
         bar.style.width = `${String((50 * Math.abs(shown)) / largest)}%`;
         bar.style.left = shown < 0 ? `${String(50 - (50 * Math.abs(shown)) / largest)}%` : "50%";
         if (active >= 0) line.classList.toggle("off", values[active] === 0);
@@ -85,14 +101,7 @@ export function moveSection(kernel, data, axes, ranges, moved) {
     }
     const switches = inputs.flatMap((variable, n) => {
       if (variable.axis !== k || !variable.quantity.endsWith(".switch")) return [];
-      const box = html("select", { "aria-label": variable.name });
-      for (const [value, text] of [["0", "as the lists say"], ["1", "on"], ["-1", "off"]]) {
-        box.append(html("option", { value }, text));
-      }
-      box.addEventListener("change", () => {
-        row[n] = Number(box.value);
-      });
-      return [html("label", {}, `${variable.quantity.split(".")[0]} `, box)];
+      return [html("label", {}, `${variable.quantity.split(".")[0]} `, switchOf(variable.name, n))];
     });
     const unreferenced = html("input", { type: "checkbox" });
     const referenced = place(inputs, k, "unreferenced");
@@ -130,15 +139,21 @@ export function moveSection(kernel, data, axes, ranges, moved) {
     };
   });
 
-  const volumetric = inputs.flatMap((variable, n) => {
-    const wanted = variable.quantity === "tool_length" || (variable.volumetric !== null && variable.quantity === "switch");
-    if (!wanted) return [];
-    const box = html("input", { type: "number", value: "0", step: "1", size: "5" });
-    if (variable.quantity === "switch") for (const [name, value] of [["min", "-1"], ["max", "1"]]) box.setAttribute(name, value);
-    box.addEventListener("input", () => {
-      row[n] = Number(box.value) || 0;
+  const machineInputs = inputs.flatMap((variable, n) => {
+    if (variable.quantity === "tool_length") {
+      const box = html("input", { type: "number", value: "0", step: "1" });
+      box.addEventListener("input", () => {
+        row[n] = Number(box.value) || 0;
+      });
+      return [html("label", {}, "Tool length ", box, " mm")];
+    }
+    if (variable.volumetric === null || variable.quantity !== "switch") return [];
+    const active = outputs.findIndex((v) => v.volumetric === variable.volumetric && v.quantity === "active");
+    const state = html("output");
+    states.push((values) => {
+      state.textContent = values[active] === 0 ? " (off)" : " (on)";
     });
-    return [html("label", {}, `${variable.name.replace("_", " ")} `, box, ` ${variable.unit}`)];
+    return [html("label", {}, `Volumetric ${String(variable.volumetric)} `, switchOf(variable.name, n), state)];
   });
 
   let given = new Float64Array(0);
@@ -166,6 +181,7 @@ export function moveSection(kernel, data, axes, ranges, moved) {
     const last = machine.run(given).subarray((due - 1) * outputs.length);
     cycles += due;
     trace.push(cards.map((card) => card.show(last)));
+    for (const show of states) show(last);
     if (trace.length > TRACE) trace.shift();
     count.textContent = cycles.toLocaleString("en");
     draw();
@@ -225,7 +241,7 @@ export function moveSection(kernel, data, axes, ranges, moved) {
   const legend = html("div", { class: "legend" },
     ...axes.map((axis, k) => html("span", { class: `key key${String(k % 6)}` }, axis.name)));
   const element = html("div", {},
-    html("div", { class: "controls" }, html("label", {}, "Feed ", speed), shake, ...volumetric,
+    html("div", { class: "controls" }, html("label", {}, "Feed ", speed), shake, ...machineInputs,
       html("span", {}, "Cycles: ", count)),
     legend, drawing, html("div", { class: "axes" }, ...cards.map((card) => card.element)));
   requestAnimationFrame(frame);

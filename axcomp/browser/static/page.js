@@ -150,7 +150,7 @@ function findings(looked) {
     const chosen = all.filter((one) => !hidden.has(one.severity));
     const rows = chosen.slice(0, most).map((one) => [
       html("span", { class: `severity ${one.severity}` }, one.severity),
-      html("span", { class: "where" }, place(one)),
+      html("span", { class: "where" }, ...place(one).split(/(?<=\/)/).flatMap((part) => [part, html("wbr")])),
       explained(one.code, looked.codes[one.code]),
       one.message,
     ]);
@@ -266,10 +266,12 @@ function tableCard(table) {
     });
     card.append(details);
   }
+  const maps = [];
   for (const part of table.parts) {
     if (part.shape === "rows") card.append(rowsTable(part.columns, part.rows));
-    else if (part.shape !== "curve") card.append(mapChart(part));
+    else if (part.shape !== "curve") maps.push(mapChart(part));
   }
+  if (maps.length) card.append(html("div", { class: maps.length > 1 ? "maps" : "" }, ...maps));
   return card;
 }
 
