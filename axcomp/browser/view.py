@@ -114,7 +114,7 @@ def _machine(checked: Checked) -> dict[str, Any]:
     return {
         "name": checked.reading.name,
         "path": str(checked.path),
-        "axes": [_axis(axis) for axis in machine.axes],
+        "axes": [_axis(machine, axis) for axis in machine.axes],
         "tables": [
             *_of_axes(machine),
             *(table for one in machine.volumetric for table in _of_volumetric(machine, one)),
@@ -126,14 +126,15 @@ def _machine(checked: Checked) -> dict[str, Any]:
     }
 
 
-def _axis(axis: Axis) -> dict[str, Any]:
+def _axis(machine: Machine, axis: Axis) -> dict[str, Any]:
+    volumetric = [one.index for one in machine.volumetric if axis.number in machine.corrected_by(one)]
     return {
         "name": axis.name,
         "number": axis.number,
         "type": axis.type.name.lower(),
         "unit": symbol(axis.unit),
         "modulo": None if axis.modulo is None else [axis.modulo.start, axis.modulo.end],
-        "kinds": [{"name": one.kind, "title": KINDS[one.kind].title} for one in axis.compensations],
+        "kinds": [*(one.kind for one in axis.compensations), *(f"volumetric {index}" for index in volumetric)],
     }
 
 

@@ -63,8 +63,7 @@ def test_every_table_is_there_with_its_numbers() -> None:
     assert positive["of"]["unit"] == "µm"
 
 
-def test_lists_that_cannot_be_run_have_no_kernel_but_their_findings(tmp_path: Path) -> None:
-    (tmp_path / "achskw1.lis").write_text("kopf.achs_nr 1\nkw.crosscomp.master_ax_nr 7\n")
-    told = json.loads(shown(look(str(tmp_path)), str(tmp_path)))
-    assert told["check"]["counts"]["error"] + told["check"]["counts"]["warning"] > 0
-    assert len(told["machines"]) == 1
+def test_what_is_no_machine_has_its_finding_and_no_kernel() -> None:
+    told = json.loads(shown(look(str(models() / "measurements")), str(models() / "measurements")))
+    assert [finding["code"] for finding in told["check"]["findings"]] == ["AXC-MISSING"]
+    assert [(machine["kernel"], machine["axes"]) for machine in told["machines"]] == [(None, [])]

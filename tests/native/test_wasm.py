@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 import shutil
 import struct
 import subprocess
@@ -155,3 +156,18 @@ def test_a_reference_without_variable_is_told(wasm: Path, tmp_path: Path) -> Non
     files = {"from": str(tmp_path / "empty"), "to": str(tmp_path / "out")}
     job = {"image": base64.b64encode(image).decode(), "inputs": [64 * 3 + 1], "outputs": [], **files}
     assert run(wasm, tmp_path, [job]) == ["there is no variable with the value reference 193"]
+
+
+def test_the_program_on_the_page_runs(wasm: Path, tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "browser.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"```js\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "program.mjs").write_text(program)
+    shutil.copyfile(ROOT / "axcomp" / "browser" / "static" / "kernel.js", tmp_path / "kernel.js")
+    shutil.copyfile(wasm, tmp_path / "wasm32.wasm")
+    machine = read_machine(models() / "three_axis").machine
+    (tmp_path / "tables.bin").write_bytes(image_of(compile_tables(machine), ""))
+    done = subprocess.run([str(NODE), "program.mjs"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    numbers = [float(word) for word in re.findall(r"-?\d+\.\d+(?:e-\d+)?", done.stdout)]
+    engine = Engine(machine)
+    assert numbers == [engine.step({"X.setpoint": x})["X.correction"] for x in (0.0, 0.1, 0.2)]

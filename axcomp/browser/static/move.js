@@ -3,7 +3,7 @@ import { bytesOf } from "./course.js";
 import { figure, html } from "./chart.js";
 
 /** @typedef {{name: string, number: number, type: string, unit: string, modulo: [number, number] | null,
- *   kinds: {name: string, title: string}[]}} Axis */
+ *   kinds: string[]}} Axis */
 
 const SHOWN = /** @type {Record<string, [number, string]>} */ ({ mm: [1e3, "µm"], "°": [3600, "″"], deg: [3600, "″"] });
 const ACCELERATION = 2000; // mm/s² or °/s²

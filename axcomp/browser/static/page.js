@@ -226,7 +226,7 @@ function axesTable(machine) {
   return rowsTable(["axis", "number", "type", "modulo range", "compensations in force"], machine.axes.map((axis) => [
     axis.name, String(axis.number), axis.type,
     axis.modulo ? `${figure(axis.modulo[0])} … ${figure(axis.modulo[1])} ${axis.unit}` : "–",
-    axis.kinds.map((kind) => kind.name).join(", ") || "none",
+    axis.kinds.join(", ") || "none",
   ]));
 }
 
