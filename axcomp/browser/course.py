@@ -23,10 +23,10 @@ _RANGES = {
     "velocity": (-100.0, 100.0),
     "acceleration": (-2000.0, 2000.0),
     "tool_length": (0.0, 200.0),
-    "temperature.offset": (-0.1, 0.1),
-    "temperature.coefficient": (-1e-4, 1e-4),
+    "offset": (-0.1, 0.1),
+    "coefficient": (-1e-4, 1e-4),
 }
-"""By the name behind that of the axis; others go from 0 to 1, velocities to come as velocities."""
+"""By the last part of the name; others go from 0 to 1, velocities to come as velocities."""
 
 
 class Column(NamedTuple):
@@ -42,7 +42,11 @@ def columns_of(variables: Iterable[Variable]) -> list[Column]:
     """Return the inputs among some variables."""
     letters = {float: "r", int: "i", bool: "b"}
     return [
-        Column(one.reference, letters[type(one.start)], *_RANGES.get(one.quantity.split("_ahead")[0], (0.0, 1.0)))
+        Column(
+            one.reference,
+            letters[type(one.start)],
+            *_RANGES.get(one.quantity.split(".")[-1].split("_ahead")[0], (0.0, 1.0)),
+        )
         for one in variables
         if one.causality == "input" and type(one.start) in letters
     ]
