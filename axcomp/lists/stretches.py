@@ -138,11 +138,10 @@ class Finder:
         """Return the values of rows, None unless they are regular from beginning to end."""
         width = len(row)
         lines = self._lines[at : at + rows * width]
-        # What is left of a line whose name is another one has a bracket. int() takes more than the grammar: _ and
-        # digits of other scripts.
+        # A line with another name keeps it, and is no integer. int() takes more than the grammar: _ and other scripts.
         values = list(map(str.removeprefix, lines, _names(row, first, rows)))
         characters = "".join(values)
-        if "[" in characters or "_" in characters or not characters.isascii():
+        if "_" in characters or not characters.isascii():
             return None
         try:
             return [list(map(int, values[column::width])) for column in range(width)]

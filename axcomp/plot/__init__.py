@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .contents import contents_of as contents_of
     from .curves import Curves as Curves
     from .field import Field as Field
+    from .interactive import NoPlotlyError as NoPlotlyError, script as script
     from .maps import Map as Map
     from .pages import (
         document as document,
@@ -37,12 +38,16 @@ if TYPE_CHECKING:
         COLOURS as COLOURS,
         DOWN as DOWN,
         UP as UP,
+        embedded as embedded,
+        framed_figure as framed_figure,
         labelled as labelled,
         line_styles as line_styles,
         new_figure as new_figure,
         png as png,
         printed as printed,
         save as save,
+        svg as svg,
+        thinned as thinned,
     )
     from .terminal import compared as compared, console as console, figure as figure, table as table
 else:
@@ -53,8 +58,9 @@ else:
         contents="contents_of",
         curves="Curves",
         field="Field",
+        interactive="NoPlotlyError script",
         maps="Map",
         pages="document html_table made navigation overview page picture remarks section sections shown",
-        style="COLOURS DOWN UP labelled line_styles new_figure png printed save",
+        style="COLOURS DOWN UP embedded framed_figure labelled line_styles new_figure png printed save svg thinned",
         terminal="compared console figure table",
     )

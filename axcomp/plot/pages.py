@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from .. import __version__
 from .content import Cell, Content, Records
+from .interactive import script
 from .style import embedded, printed
 
 PICTURES_A_PROCESS = 16
@@ -40,20 +41,22 @@ thead th { position: sticky; top: 0; }
 """
 
 
-def page(title: str, contents: Sequence[Content], notes: Sequence[str] = ()) -> str:
-    """Return a page with an overview and a section for each content."""
-    links = [(one.subject.name, one.subject.title) for one in contents]
-    return document(
-        title, f"{remarks(notes)}\n{navigation(links)}\n{html_table(overview(contents))}\n{sections(contents)}"
-    )
+def page(title: str, contents: Sequence[Content], notes: Sequence[str] = (), *, turning: bool = False) -> str:
+    """Return a page with an overview and a section for each content; ``turning``: as in ``section``."""
+    links = navigation((one.subject.name, one.subject.title) for one in contents)
+    parts = (remarks(notes), links, html_table(overview(contents)), sections(contents, turning=turning))
+    return document(title, "\n".join(parts), script() if turning else "")
 
 
-def document(title: str, body: str) -> str:
-    """Return a page with a heading and what stands below it, as HTML; it needs nothing beside it and no script."""
+def document(title: str, body: str, head: str = "") -> str:
+    """Return a page with a heading and what stands below it, as HTML; it needs nothing beside it.
+
+    ``head``: the script of pictures that can be turned; without it there is none.
+    """
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="icon" href="data:,"><title>{escape(title)}</title><style>{_STYLE}</style></head>
+<link rel="icon" href="data:,"><title>{escape(title)}</title><style>{_STYLE}</style>{head}</head>
 <body>
 <h1>{escape(title)}</h1>
 <p class="made">{escape(made())}</p>
@@ -81,39 +84,42 @@ def remarks(notes: Iterable[str]) -> str:
     return "".join(f'<p class="note">{escape(note)}</p>' for note in notes)
 
 
-def section(content: Content, heading: str = "h2") -> str:
-    """Return one content: heading, picture, and its numbers to unfold."""
+def section(content: Content, heading: str = "h2", *, turning: bool = False) -> str:
+    """Return one content: heading, picture, and its numbers to unfold.
+
+    ``turning``: where it is a body in space also one that can be turned, for a page with ``script`` in its head.
+    """
     title = content.subject.title
     shown = content.extract(ROWS_SHOWN)
     return f"""<section id="{escape(content.subject.name)}"><{heading}>{escape(title)}</{heading}>
-{picture(title, content.figure())}
+{picture(title, content.figure())}{content.interactive() if turning else ""}
 <details><summary>Numbers</summary>{html_table(shown)}</details></section>"""
 
 
-def sections(contents: Sequence[Content], heading: str = "h2") -> str:
-    """Return all contents; many are drawn on all processors where processes are cheap."""
+def sections(contents: Sequence[Content], heading: str = "h2", *, turning: bool = False) -> str:
+    """Return all contents as ``section`` does; many are drawn on all processors where processes are cheap."""
     processes = min(os.cpu_count() or 1, len(contents) // PICTURES_A_PROCESS)
     if processes < 2 or sys.platform != "linux" or multiprocessing.current_process().daemon:
-        return "\n".join(section(content, heading) for content in contents)
+        return "\n".join(section(content, heading, turning=turning) for content in contents)
     with warnings.catch_warnings():
         # The threads that it warns of are those of the linear algebra, which wait.
         warnings.simplefilter("ignore", DeprecationWarning)
-        with multiprocessing.get_context("fork").Pool(processes, _inherit, (contents, heading)) as pool:
+        with multiprocessing.get_context("fork").Pool(processes, _inherit, (contents, heading, turning)) as pool:
             return "\n".join(pool.map(_inherited, range(len(contents)), chunksize=4))
 
 
-_work: tuple[Sequence[Content], str] = ((), "")
+_work: tuple[Sequence[Content], str, bool] = ((), "", False)
 
 
-def _inherit(contents: Sequence[Content], heading: str) -> None:
+def _inherit(contents: Sequence[Content], heading: str, turning: bool) -> None:
     """Keep in a process what it has inherited: contents cannot be sent."""
     global _work  # noqa: PLW0603
-    _work = (contents, heading)
+    _work = (contents, heading, turning)
 
 
 def _inherited(number: int) -> str:
-    contents, heading = _work
-    return section(contents[number], heading)
+    contents, heading, turning = _work
+    return section(contents[number], heading, turning=turning)
 
 
 def picture(title: str, figure: Figure) -> str:

@@ -31,6 +31,7 @@ from ..plot import (
     picture,
     printed,
     remarks,
+    script,
     sections,
 )
 
@@ -60,6 +61,8 @@ class Report:
         What a cycle costs on this computer.
     notes : tuple of str
         What could not be done, a sentence each.
+    turning : bool
+        The page has pictures that can be turned: bodies in space, by Plotly's script.
     """
 
     reading: Reading
@@ -69,6 +72,7 @@ class Report:
     budget: Budget | None = None
     costs: tuple[Sample, ...] = ()
     notes: tuple[str, ...] = ()
+    turning: bool = False
 
     @property
     def machine(self) -> Machine:
@@ -85,7 +89,7 @@ class Report:
         return {severity.value: sum(f.severity is severity for f in self.findings) for severity in Severity}
 
     def html(self) -> str:
-        """Return it as one HTML page without script that needs nothing beside it."""
+        """Return it as one HTML page that needs nothing beside it; NoPlotlyError without Plotly if it needs that."""
         return _page(self)
 
     def to_dict(self) -> dict[str, Any]:
@@ -152,7 +156,7 @@ def _page(report: Report) -> str:
     parts = "\n".join(f'<h2 id="{anchor}">{escape(title)}</h2>\n{body}' for anchor, title, body in chapters)
     intro = f"<p>{_counted(report)} Read from {escape(str(report.reading.path))}.</p>"
     body = f"{intro}\n{remarks(report.notes)}\n{links}\n{parts}"
-    return document(f"Compensations of {report.reading.name}", body)
+    return document(f"Compensations of {report.reading.name}", body, script() if report.turning else "")
 
 
 def _counted(report: Report) -> str:
@@ -301,7 +305,7 @@ def _budget(report: Report) -> str:
 def _tables(report: Report) -> str:
     if not report.contents:
         return "<p>No compensation is in force.</p>"
-    return f"{html_table(overview(report.contents))}\n{sections(report.contents, 'h3')}"
+    return f"{html_table(overview(report.contents))}\n{sections(report.contents, 'h3', turning=report.turning)}"
 
 
 def _cost(report: Report) -> str:
