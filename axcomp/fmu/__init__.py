@@ -15,7 +15,7 @@ if TYPE_CHECKING:
         generation_date as generation_date,
         write_fmu as write_fmu,
     )
-    from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built
+    from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built, Version as Version
     from .description import Description as Description, model_description as model_description
     from .documentation import accompanying as accompanying
     from .instance import Instance as Instance
@@ -34,7 +34,7 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         archive="BuildError content_guid file_bytes generation_date write_fmu",
-        content="Built NAME PACKAGE",
+        content="Built NAME PACKAGE Version",
         description="Description model_description",
         documentation="accompanying",
         instance="Instance",

@@ -57,7 +57,7 @@ def variables_of(
         ``own``, or ``real``: Booleans and Integers are Real, for importers that take everything as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
-    every_axis = list(enumerate(zip(machine.axes, _prefixes(machine, naming), strict=True)))
+    every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))
     of_machine = [d for d in OF_MACHINE if d.kind != VOLUMETRIC or machine.volumetric]
     inputs: dict[Input, str] = {(None, d.name): d.name for d in of_machine if d.causality == "input"}
     inputs.update(
@@ -200,7 +200,7 @@ def _name(prefix: str, declaration: Declaration, naming: Naming) -> str:
     return f"{prefix}.{declaration.name}" if naming == "structured" else f"{prefix}_{declaration.flat}"
 
 
-def _prefixes(machine: Machine, naming: Naming) -> list[str]:
+def prefixes_of(machine: Machine, naming: Naming) -> list[str]:
     """Return the axes' names as identifiers, so that no two variables get the same name."""
     prefixes: list[str] = []
     taken = {declaration.name for declaration in OF_MACHINE}

@@ -29,7 +29,8 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
 {
     int category = status == fmi2OK ? CATEGORY_ALL : status == fmi2Warning ? CATEGORY_WARNING : CATEGORY_ERROR;
     bool wanted = instance->logging && (instance->categories >> category & 1u) != 0;
-    if (instance->callbacks.logger == NULL || (!wanted && category != CATEGORY_ERROR)) {
+    bool heard = instance->callbacks.logger != NULL || instance->log != NULL;
+    if (!heard || (!wanted && category != CATEGORY_ERROR)) {
         return status;
     }
     char message[MESSAGE_LENGTH] = "";
@@ -38,6 +39,13 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    if (instance->log != NULL) {
+        if (strncmp(message, "fmi2", 4) == 0) {
+            message[3] = '3';
+        }
+        axcomp_say_third(instance, status, axcomp_log_categories[category], message);
+        return status;
+    }
     /* The host takes the message for a format. */
     size_t length = 0;
     for (const char *from = message; *from != 0; from++) {
@@ -120,7 +128,9 @@ void axcomp_take_update(Instance *instance)
 
 const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
 {
-    return instance->first->identity == identity ? instance->first : NULL;
+    return instance->first->identity == identity ? instance->first
+        : instance->lists->identity == identity  ? instance->lists
+                                                 : NULL;
 }
 #endif
 
@@ -130,6 +140,21 @@ void axcomp_preview_outputs(Instance *instance)
     instance->tables.cycle_time = memory->controls.cycle_time;
     axcomp_copy_state(&instance->preview, &memory->state, &instance->shape);
     axcomp_cycle(&instance->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
+}
+
+bool axcomp_cycle_begins(const Instance *instance)
+{
+    const Memory *memory = &instance->memory;
+    double since = memory->time - memory->start_time, cycle_time = instance->tables.cycle_time;
+    return memory->cycles * cycle_time - since <= AXCOMP_ON_INSTANT * cycle_time;
+}
+
+void axcomp_refresh_outputs(Instance *instance)
+{
+    if (instance->stale && axcomp_cycle_begins(instance)) {
+        axcomp_preview_outputs(instance);
+    }
+    instance->stale = false;
 }
 
 /* Tell, once for an axis and a kind, that a compensation is used beyond its table, and of switches that are none. */

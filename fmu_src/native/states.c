@@ -95,6 +95,9 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     saved->layout = AXCOMP_LAYOUT;
     saved->size = (uint32_t)size;
     saved->lists = instance->lists->identity;
+    if (instance->lists->tuned) {
+        ((Lists *)instance->lists)->saved = true; /* it is this instance's own */
+    }
     saved->waits = waiting != NULL;
     saved->waiting = waiting != NULL ? waiting->identity : 0;
     saved->check = 0;
@@ -151,6 +154,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
 #if !defined(AXCOMP_EMBEDDED)
     instance->waiting = saved->waits != 0 ? (Lists *)axcomp_lists_with(instance, saved->waiting) : NULL;
 #endif
+    instance->stale = true;
     return fmi2OK;
 }
 
