@@ -48,7 +48,8 @@ def model_description_3(
     )
     capabilities = {name: text_of(value) for name, value in CAPABILITIES.items()}
     SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
-    add_units(root, {"s", *(one.unit for one in (*variables, *arrays))})
+    units = {variable.unit for variable in variables} | {array.unit for array in arrays}
+    add_units(root, {"s", *units})
     add_log_categories(root)
     add_experiment(root, description.step_size)
     parent = SubElement(root, "ModelVariables")

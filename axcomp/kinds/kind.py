@@ -147,11 +147,10 @@ class KindInput:
 class TableArray(NamedTuple):
     """Numbers of a kind's table that a host of FMI 3.0 reads and calibrates.
 
-    ``number``: added to the kind's identifier it is that of the array in the block of its axis' tables; ``name``: behind
-    the kind's; ``at``, ``points``, ``rows``, ``argument``: paths in the kind's table in the kernel, of the index in the
-    pool, the counts ("": one row), and what the table is looked up with ("": its own abscissae never count modulo);
-    ``of``: ``x`` abscissae, ``v`` those of a speed, ``y`` values; ``unit``: as in ``KindInput``, but of the axis that the
-    argument names for abscissae.
+    ``number``: with the kind's identifier, that of the array in the block of its axis' tables; ``name``: behind the
+    kind's; ``of``: ``x`` abscissae, ``v`` those of a speed, ``y`` values; ``unit``: as in ``KindInput``, of abscissae
+    for the axis they are looked up with. ``at``, ``points``, ``rows``, ``argument`` are paths in the kernel's table: of
+    the index in the pool, the counts ("": one row), and what looks the abscissae up ("": no position).
     """
 
     number: int

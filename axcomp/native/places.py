@@ -61,8 +61,9 @@ def layout_header() -> str:
 #define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
 
-enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK}, TABLE_BLOCK = {TABLE_BLOCK} }};
-enum {{ TIME_REFERENCE = {TIME_REFERENCE} }};  /* of the independent variable of FMI 3.0 */
+enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK} }};
+/* Of FMI 3.0: the blocks of tables, and the independent variable. */
+enum {{ TABLE_BLOCK = {TABLE_BLOCK}, TIME_REFERENCE = {TIME_REFERENCE} }};
 
 #endif
 """
@@ -100,8 +101,8 @@ def _places() -> Iterator[tuple[int, str]]:
 def _arrays() -> Iterator[str]:
     for kind, identifier, array in every_array():
         paths = (array.at, array.points, array.rows, array.argument)
-        places = ", ".join(f"offsetof(AxisTable, compensation.{kind}.{path})" if path else "0" for path in paths)
-        yield f"{{{identifier}, '{array.of}', {places},\n     \"{kind}.{array.name}\"}}"
+        places = [f"offsetof(AxisTable, compensation.{kind}.{path})" if path else "0" for path in paths]
+        yield ",\n     ".join((f"{{{identifier}, '{array.of}'", *places, f'"{kind}.{array.name}"}}'))
 
 
 def _by_name(found: re.Match[str]) -> str:
