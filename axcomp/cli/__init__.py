@@ -15,14 +15,17 @@ from .. import __version__
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
-    "check": "check the lists of a machine",
+    "check": "check the lists of machines",
+    "format": "write lists in a layout",
+    "lsp": "serve editors: findings while one types, and all about an entry",
     "parameters": "list the parameters that are understood",
     "run": "run setpoints and NC commands through a machine",
     "demo": "couple compensation and plant, and show what is left of the errors",
     "bench": "measure what a cycle costs, engine and FMU",
-    "measure": "evaluate positioning measurements by ISO 230-2",
-    "create": "make compensation tables from measurements",
+    "measure": "evaluate positioning measurements by ISO 230-2, circular tests by ISO 230-4",
+    "create": "make compensation tables from measurements and traces",
     "plan": "propose what to measure next for volumetric errors",
+    "fit": "tune friction parameters until the peaks of a circular test are least",
     "convert": "convert leadscrew and cross tables to and from other controllers",
     "show": "show compensation tables as pictures and tables",
     "sweep": "run many variations of a machine",
@@ -40,11 +43,13 @@ EXTRA = {
     "sweep": ("dask", "pandas"),
     "measure": ("rich",),
     "create": ("rich",),
+    "fit": ("rich",),
     "show": ("rich",),
     "diagnose": ("openpyxl",),
     "replay": ("rich",),
+    "lsp": ("pygls",),
 }
-"""Packages of the extra ``workbench`` without which a command does nothing."""
+"""Packages without which a command does nothing: of the extra ``lsp``, and of ``workbench``."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -64,7 +69,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if name not in missing:
                 subparsers.add_parser(name, help=what)
     if missing:
-        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(missing)}."
+        extras = ",".join(sorted({_extra_of(name) for name in missing}))
+        parser.epilog = f"With pip install 'axcomp[{extras}]' there are also: {', '.join(missing)}."
     options = parser.parse_args(given)
     try:
         status: int = options.do(options)
@@ -95,7 +101,11 @@ def _module(name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
             raise
-        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
+        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[{_extra_of(name)}]'") from None
+
+
+def _extra_of(command: str) -> str:
+    return "lsp" if command == "lsp" else "workbench"
 
 
 def _print_anything() -> None:

@@ -14,7 +14,7 @@ from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
 from ..plant import package_plant
 from .axis_type import add_axis_type
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 
 VERSIONS: tuple[Version, ...] = ("2.0", "3.0")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..fit import DROP, FITS, KEEP, REPORT, Creation, Fit, Options, create, fit_of
-from ..measurement import MeasurementError, SeveralAxesError, joined
+from ..measurement import MeasurementError, SeveralAxesError
 
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -60,7 +60,7 @@ def _do_create(args: argparse.Namespace) -> int:
     given = vars(args)
     try:
         target = fit.open(args.into, given)
-        readings = joined([_read(fit, path, args.measured, target) for path in args.files])
+        readings = fit.load(args.files, given, lambda path: _read(fit, path, args.measured, target))
         options = Options(**{item.name: given[item.name] for item in fields(Options) if item.name in given})
         creation = create(fit.name, readings, target, options)
         changes = creation.changes(args.output) if args.dry_run else []

@@ -17,12 +17,14 @@ from ..measurement import (
     MeasurementError,
     Positioning,
     evaluate_robustly,
+    is_circular,
     joined,
     of_axis,
     read_positionings,
 )
 from ..model import symbol
-from .check import STATUS_MAX
+from . import circular
+from .lists import STATUS_MAX
 
 _EPILOG = """\
 A table, as text or .xlsx, has the columns target, run, direction, deviation (mm and µm unless the first row says
@@ -32,6 +34,7 @@ examples:
   axcomp measure x.rtl
   axcomp measure x.csv --plot x.png --device 0.5 --drift 0.8
   axcomp measure x_before.csv x_after.csv --compare --plot both.png
+  axcomp measure ccw.csv cw.csv --together --plot circle.png
 """
 
 
@@ -39,7 +42,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     """Add the command."""
     parser = subparsers.add_parser(
         "measure",
-        description="Evaluates positioning measurements by ISO 230-2: accuracy, repeatability, reversal.",
+        description="Evaluates positioning measurements by ISO 230-2 (accuracy, repeatability, reversal) and circular "
+        "tests by ISO 230-4 (columns angle or time and deviation, or x and y).",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -51,6 +55,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--axis", metavar="NAME", default="", help="the one to evaluate of files with several")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draw means, ±2s bands and readings")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
+    circular.add_options(parser)
     conditions = parser.add_argument_group("conditions of the test, for expanded uncertainties (k = 2); linear axes")
     for one in fields(Conditions):
         name, about = f"--{one.name.replace('_', '-')}", one.metadata
@@ -59,6 +64,8 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_measure(args: argparse.Namespace) -> int:
+    if all(is_circular(path) for path in args.files):
+        return circular.measure(args)
     measurements: list[Positioning] = []
     errors = 0
     for path in args.files:

@@ -5,21 +5,21 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 from ..analysis.judgement import Evidence
 from ..lists import Reading, read_machine
 from ..measurement import evaluate_robustly
+from ..plot import NoPlotlyError
 from ..report import REPEATS, ProtocolFields, make_protocol, make_report
-from .check import STATUS_MAX
 from .judgement_options import add_judgement_options, evidence_of
-from .lists import add_lists_command, failed
+from .lists import STATUS_MAX, add_lists_command, failed
 
 _EPILOG = """\
 The page holds the findings, a summary of the machine, a picture of every table, the judgement of the tables, the
 evaluation of the measurements by ISO 230-2, the budget along the input file, and the cost of a cycle. It needs nothing
-beside it and no script. The exit status is the number of options that could not be followed; findings do not count.
+beside it. The exit status is the number of options that could not be followed; findings do not count.
 
 examples:
   axcomp report models/three_axis --output report.html
@@ -37,6 +37,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--repeats", type=int, default=REPEATS, metavar="N", help=f"of the cost of a cycle ({REPEATS}); 0: without"
     )
+    parser.add_argument("--interactive", action="store_true", help="volumetric errors in 3-D, by Plotly's script")
     add_judgement_options(parser)
     group = parser.add_argument_group("a dated protocol instead, which prints to A4; the first measurement is before")
     group.add_argument("--protocol", action="store_true", help="write it")
@@ -64,7 +65,11 @@ def _do_report(options: argparse.Namespace) -> int:
     if given or options.fields is not None:
         return failed("report", "fields are for a protocol: --protocol writes one")
     report = make_report(reading, evidence, cycle_time=options.cycle_time, repeats=options.repeats)
-    options.output.write_text(report.html(), encoding="utf-8")
+    try:
+        html = replace(report, turning=options.interactive).html()
+    except NoPlotlyError as error:
+        return failed("report", str(error))
+    options.output.write_text(html, encoding="utf-8")
     for note in report.notes:
         print(f"axcomp report: {note}", file=sys.stderr)
     if options.format == "json":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar
@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import KINDS
-from ..measurement import Outlier, Readings
+from ..measurement import AxisTrace, Outlier, Readings, is_trace, joined, read_axis_trace
 from ..model import shown
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, Report
 from .target_list import TargetList
@@ -46,6 +46,17 @@ NEW_LIST: dict[str, Option] = {
 }
 
 
+TRACE: dict[str, Option] = {
+    "map": {
+        "action": "append",
+        "default": [],
+        "metavar": "COLUMNS",
+        "help": "what the columns of a trace are: velocity=v_ist[mm/s],current=I,time=t[ms]",
+    },
+    "cycle-time": {"type": float, "metavar": "s", "help": "distance of the rows of a trace without time"},
+}
+
+
 def axis_numbers(what: str, count: int | str, field: str = "masters") -> Option:
     """Return the option to give logical numbers of axes."""
     help_text = f"logical {what} (default: as the list says)"
@@ -74,6 +85,10 @@ class Options:
     errors, nodes, scatter : sequence of str, int, float or None
         The errors that are sought, values of one at most, standard deviation of a reading in µm (volumetric); None: all
         of the chain, as many as usual, as the residuals say.
+    bin : float or None
+        Velocities within so many percent count as one (friction).
+    reversal : bool
+        The list is to say what the reversals of a trace propose (friction).
     """
 
     bound: float | None = None
@@ -86,6 +101,8 @@ class Options:
     errors: Sequence[str] | None = None
     nodes: int | None = None
     scatter: float | None = None
+    bin: float | None = None
+    reversal: bool = False
 
 
 class Fit(ABC, Generic[R, T]):
@@ -164,6 +181,25 @@ class Fit(ABC, Generic[R, T]):
         """Read a file, of several axes in it that of ``axis``; MeasurementError if it, or a line of it, cannot be."""
 
     @classmethod
+    def load(cls, paths: Sequence[Path], given: Mapping[str, Any], read: Callable[[Path], R]) -> R:
+        """Read files as one measurement, traces among them; ``given``: values of the command's options."""
+        if "map" not in given:
+            return joined([read(path) for path in paths])
+        return joined(
+            [
+                cls.of_trace(read_axis_trace(path, given["map"], given["cycle_time"]))
+                if given["map"] or is_trace(path)
+                else read(path)
+                for path in paths
+            ]
+        )
+
+    @classmethod
+    def of_trace(cls, trace: AxisTrace) -> R:
+        """Return what a trace reads, for kinds with the arguments ``TRACE``."""
+        raise NotImplementedError
+
+    @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> Any:
         """Open the list that gets the table; ``given``: values of the command's options."""
         return TargetList(path, given["axis"], given["name"])
@@ -223,6 +259,11 @@ class Fit(ABC, Generic[R, T]):
         """Return the number of entries."""
         return int(np.size(getattr(self.compensation(table), self.counted)))
 
+    @property
+    def settled(self) -> tuple[str, ...]:
+        """Entries that the list is to say besides the table: ends of their names."""
+        return ()
+
     @abstractmethod
     def draw(self, ax: Axes, table: T) -> None:
         """Draw measurement, table and what is left."""
@@ -235,7 +276,7 @@ class Fit(ABC, Generic[R, T]):
 
     def files(self, compensation: Any) -> dict[Path, bytes]:
         """Return the list with the compensation, and what else changes."""
-        data = self.target.with_compensation(self.name, compensation, self.options.max_points)
+        data = self.target.with_compensation(self.name, compensation, self.options.max_points, self.settled)
         return {self.target.path: data}
 
     def figures(self, left: Array) -> dict[str, float]:

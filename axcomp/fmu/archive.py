@@ -20,7 +20,8 @@ DATE = (1980, 1, 1, 0, 0, 0)
 INSTALLED = "946684800"
 """Date of generation by an installed package, s: 2000-01-01."""
 
-LEVEL = 9
+LEVEL = 6
+"""Of the compression: 9 takes four times as long and saves 5 %."""
 UNIX = 3
 MODE = 0o100644 << 16
 

@@ -88,8 +88,10 @@ def package_native(
     """
     content = read_content(lists, cycle_time, naming, axis_type, name, types)
     files = {f"resources/{file}": data for file, data in content.lists.items()} if with_lists else {}
-    libraries, note = _libraries(platforms, name, fmi)
-    files.update(libraries)
+    libraries = _libraries(platforms)
+    for platform, library in libraries.items():
+        for folder in PLATFORMS[platform].third if fmi == "3.0" else (platform,):
+            files[f"binaries/{folder}/{name}{PLATFORMS[platform].suffix}"] = library
     description = replace(
         content.description,
         capabilities={"needsExecutionTool": False, "canInterpolateInputs": True},
@@ -112,7 +114,8 @@ def package_native(
         del files["model.png"]  # its icon is that of the terminals
     path = output_path(output, f"{name}.fmu")
     write_fmu(path, files)
-    return content._replace(path=path, note=note)
+    reason = why_not_prebuilt()
+    return content._replace(path=path, note=f"{reason}: compiled for {', '.join(libraries)}" if reason else "")
 
 
 def write_image(
@@ -144,22 +147,20 @@ def _guid(content: Built, described: Callable[[Description, str], bytes]) -> str
     return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "", content.findings)})
 
 
-def _libraries(platforms: Sequence[str], name: str, fmi: Version) -> tuple[dict[str, bytes], str]:
-    """Return the libraries by their paths, and what there is to say about them.
+def _libraries(platforms: Sequence[str]) -> dict[str, bytes]:
+    """Return the library of each platform, without any: of all, or of this machine's where they must be compiled.
 
-    They come with the package; where that does not serve, a compiler makes them, by default this machine's own one.
+    They come with the package; where those do not serve, a compiler makes them.
     """
     reason = why_not_prebuilt()
-    wanted = platforms or ((own_platform(),) if reason else tuple(PLATFORMS))
-    files = {}
-    for platform in wanted:
+    libraries = {}
+    for platform in platforms or ((own_platform(),) if reason else PLATFORMS):
         try:
             library = _compiled(platform, (*compiler_of(platform),)) if reason else file_bytes(prebuilt_path(platform))
         except CompilerError as error:
             raise NoCompilerError(f"{reason}; {error}") from None
-        for folder in PLATFORMS[platform].third if fmi == "3.0" else (platform,):
-            files[f"binaries/{folder}/{name}{PLATFORMS[platform].suffix}"] = library
-    return files, f"{reason}: compiled for {', '.join(wanted)}" if reason else ""
+        libraries[platform] = library
+    return libraries
 
 
 @cache

@@ -38,7 +38,7 @@ Every input starts with 0 or false, which means what the lists say: a host that 
 A switch (`NAME.KIND.switch`, `volumetric[j].switch`) is 0 for automatic activation as the lists say, 1 for on, -1 for
 off. Its changes are the commands; the same value again commands nothing, so a manual compensation which program end
 has switched off needs 0 or -1 before it gets 1 again. Any other value commands nothing and sets `NAME.error`.
-`temperature.offset` and `temperature.coefficient` are added to what the lists say.
+`NAME.KIND.offset` and `NAME.KIND.coefficient` are added to what the lists say.
 
 A value reference is `{block} · block + identifier`, the same in every FMU: block {machine} is the machine's, block
 {axis} + i that of axis i = 0 … 31 in the order of the lists, block {volumetric} + j that of volumetric compensation
@@ -67,8 +67,9 @@ STEPS = """\
 
 ## Native and Python
 
-`axcomp build` makes the native FMU: libraries for the platforms asked for, and C sources. With `--runtime python` it
-makes one whose libraries start Python. Variables, value references and results are the same in every bit; these differ:
+`axcomp build` makes the native FMU: libraries for all platforms or those asked for, and C sources. With
+`--runtime python` it makes one whose libraries start Python. Variables, value references and results are the same in
+every bit; these differ:
 
 | | native | `--runtime python` |
 | --- | --- | --- |
@@ -87,10 +88,12 @@ error say why |
 | Unpacked under any path | yes | not where it holds one of `ü + ( ) [ ] # , %`: pythonfmu's library fails there |
 
 The native FMU's tables lie in `resources/tables.bin`; it belongs to the guid, so that of another FMU is refused.
+Instances of a library share them; an instance has some 10 kB besides, and its serialized state 1 kB for each axis.
+Memory is allocated when an instance or a state is made or `reload` is set, not in steps.
+
 `fmpy compile axcomp.fmu`, or a host that takes source-code FMUs, compiles the sources with the tables in them
-(`tables.c`): such a library reads no file unless `reload` asks for one. With `--no-lists` no list, no table as text
-and no finding is in the FMU, only the compiled tables. Memory is allocated when an instance or a state
-is made or `reload` is set, not in steps.
+(`tables.c`): no file is read, nothing is allocated or logged, and `reload` is refused. With `--no-lists` no list, no
+table as text and no finding is in the FMU, only the compiled tables.
 
 ## What else is in the FMU
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .companions import fmu_sources, licence, machine_path, models
+from .companions import docs, fmu_sources, licence, machine_path, models
 from .curve import Curve
 from .delaunay import Triangulation, triangulate, width
 from .grid import Grid, Scatter
@@ -79,6 +79,7 @@ __all__ = [
     "Triangulation",
     "Triple",
     "Volumetric",
+    "docs",
     "fmu_sources",
     "is_angle",
     "is_grid",

@@ -1,4 +1,4 @@
-"""Where the package's companions are: the sources of the FMUs and the example machines.
+"""Where the package's companions are: the sources of the FMUs, the example machines, the documentation.
 
 They lie beside the package in a checkout, and inside it in an installed wheel.
 """
@@ -23,6 +23,11 @@ def models() -> Path:
 def licence() -> Path:
     """Return the file with the terms under which all of it may be used."""
     return _companion("LICENSE")
+
+
+def docs() -> Path:
+    """Return the folder of the documentation."""
+    return _companion("docs")
 
 
 def machine_path(text: str) -> Path:

@@ -29,9 +29,8 @@ from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_
 from ..kinds import KIND_NAMES, KINDS
 from ..model import CYCLE_TIME_MAX
 from ..runtime import NO_COMMAND, ON_INSTANT
-from .records import parts_of, size_of
+from .records import GENERATED, parts_of, size_of
 
-GENERATED = "/* Generated from axcomp/interface/declarations.py by `python -m axcomp.native`; do not edit. */"
 TABLES = {
     "axcomp_machine_places": MACHINE_BLOCK,
     "axcomp_axis_places": AXIS_BLOCK,

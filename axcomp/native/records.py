@@ -9,13 +9,15 @@ import struct
 import textwrap
 from collections.abc import Hashable, Iterator
 from functools import cache
-from typing import Annotated, Any, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, NamedTuple, cast, get_args, get_origin
 
 from ..kernel import AxisTable, VolumetricTable, fields_of
 
+GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
 _LETTERS = {float: "d", int: "i", bool: "b"}
 _FORMATS = {float: "d", int: "i", bool: "?"}
 _C_TYPES = {float: "double", int: "int32_t", bool: "bool"}
+GENERATED = "/* Generated from axcomp/interface/declarations.py by `python -m axcomp.native`; do not edit. */"
 ROOTS = {"axcomp_axis_parts": AxisTable, "axcomp_volumetric_parts": VolumetricTable}
 """Table of parts in C → record."""
 
@@ -56,8 +58,7 @@ def size_of(cls: Hashable) -> int:
 
 def record_bytes(record: Any) -> bytes:
     """Return the fields of a record: little-endian, without gaps."""
-    cls: Any = type(record)
-    return struct.pack("<" + _format(cls), *_numbers(record))
+    return struct.pack("<" + _format(cast(Hashable, type(record))), *_numbers(record))
 
 
 def _numbers(record: Any) -> Iterator[float]:
@@ -89,9 +90,9 @@ def _numbers_in(value: Any) -> Iterator[float]:
     return iter((value,)) if isinstance(value, bool | int | float) else _numbers(value)
 
 
-def records_source(generated: str) -> str:
-    """Return the text of ``records.c``; ``generated``: the comment at its begin."""
-    lines = [generated, '#include "records.h"', ""]
+def records_source() -> str:
+    """Return the text of ``records.c``."""
+    lines = [GENERATED, '#include "records.h"', ""]
     written: set[Any] = set()
 
     def name_of(cls: Any) -> str:

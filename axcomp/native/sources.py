@@ -7,18 +7,18 @@ from pathlib import Path
 
 from ..model import fmu_sources
 
-_PARTS = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "storage", "values")
-SOURCES = tuple(f"{part}.c" for part in _PARTS)
+_COMMON = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "values")
+_HOSTED = ("heap", "image", "lists", "messages", "records", "reload", "resource", "run")
+SOURCES = tuple(f"{part}.c" for part in (*_COMMON, "embedded"))
 HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h")
 """Of an FMU, in ``fmu_src/native``; its tables are among its sources, and ``config.h`` is another one there."""
 
-_THIRD_PARTS = ("fmi3", "refused3", "tuning", "values3")
-THIRD_SOURCES = tuple(f"{part}.c" for part in _THIRD_PARTS)
+_THIRD = ("fmi3", "refused3", "tuning", "values3")
+THIRD_SOURCES = tuple(f"{part}.c" for part in _THIRD)
 THIRD_HEADERS = ("fmi3.h", "tuning.h")
 """What FMI 3.0 needs besides; it goes on to the functions of FMI 2.0."""
 
-_LIBRARY_PARTS = ("image", "lists", "records", "reload", "resource")
-LIBRARY_SOURCES = (*SOURCES, *THIRD_SOURCES, *(f"{part}.c" for part in _LIBRARY_PARTS), "run.c")
+LIBRARY_SOURCES = tuple(f"{part}.c" for part in (*_COMMON, *_THIRD, *_HOSTED))
 LIBRARY_HEADERS = (*HEADERS, *THIRD_HEADERS, "config.h", "lists.h", "records.h", "resource.h", "run.h")
 """Of the libraries, which speak FMI 2.0 and 3.0 and read images; the Engine runs its trajectories in them too."""
 

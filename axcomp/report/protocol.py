@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from datetime import date
 from html import escape
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from .. import __version__
 from ..lists import Reading, Severity
 from ..measurement import SYMBOLS, BeforeAfter, Iso230Result
 from ..model import symbol
@@ -90,7 +90,7 @@ class ProtocolFields:
             "operator": details.get("by", "") or details.get("operator", ""),
             "place": details.get("location", ""),
             "program": PROGRAM,
-            "version": _version(),
+            "version": __version__,
             "date": date.today().isoformat(),
         }
         return replace(self, **{name: value for name, value in known.items() if not getattr(self, name)})
@@ -165,13 +165,6 @@ def make_protocol(
         if file.is_file():
             sums[str(file)] = hashlib.sha256(file.read_bytes()).hexdigest()
     return Protocol(given.completed(reading, evaluations), reading, tuple(evaluations), sums, tuple(notes))
-
-
-def _version() -> str:
-    try:
-        return version(PROGRAM)
-    except PackageNotFoundError:
-        return ""
 
 
 def _fields(found: ProtocolFields) -> str:

@@ -9,14 +9,6 @@ FMI3_EXPORT const char *FMI3_NAME(fmi3GetVersion)(void)
     return "3.0";
 }
 
-#if !defined(AXCOMP_EMBEDDED)
-void axcomp_say_third(const Instance *instance, fmi2Status status, const char *category, const char *message)
-{
-    ((fmi3LogMessageCallback)instance->log)(instance->callbacks.componentEnvironment, (fmi3Status)status, category,
-                                            message);
-}
-#endif
-
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetDebugLogging)(fmi3Instance instance, fmi3Boolean on, size_t count,
                                                       const fmi3String categories[])
 {
@@ -34,14 +26,9 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
         return NULL;
     }
     instance->event_mode = event_mode;
-#if defined(AXCOMP_EMBEDDED)
-    (void)environment, (void)log, (void)logging;
-#else
     instance->callbacks.componentEnvironment = environment;
     instance->log = (void (*)(void))log;
-    instance->logging = logging;
-    instance->categories = ~0u;
-#endif
+    axcomp_log_as_wanted(instance, logging, ~0u);
     return axcomp_begin_instance(instance, name, token, resources);
 }
 

@@ -6,9 +6,6 @@
 #include "fmi2.h"
 #include "instance.h"
 #include "layout.h"
-#if !defined(AXCOMP_EMBEDDED)
-#include "lists.h"
-#endif
 
 /* ---- What is the same for all FMUs ---- */
 
@@ -20,17 +17,6 @@ FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void)
 FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void)
 {
     return fmi2Version;
-}
-
-/* What the host wants to know from now on; `categories`: see Instance. */
-static void log_as_wanted(Instance *instance, fmi2Boolean on, unsigned categories)
-{
-#if defined(AXCOMP_EMBEDDED)
-    (void)instance, (void)on, (void)categories;
-#else
-    instance->logging = on != fmi2False;
-    instance->categories = categories;
-#endif
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, fmi2Boolean on, size_t count,
@@ -57,30 +43,11 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, f
         }
         wanted |= known == CATEGORY_ALL ? ~0u : 1u << known;
     }
-    log_as_wanted(instance, on, wanted);
+    axcomp_log_as_wanted(instance, on != fmi2False, wanted);
     return fmi2OK;
 }
 
 /* ---- Creation and destruction ---- */
-
-/* The tables that belong to this FMU; NULL after telling the host why there are none. */
-static const Lists *own_lists(Instance *instance, fmi2String location)
-{
-#if defined(AXCOMP_EMBEDDED)
-    (void)instance, (void)location;
-    return &axcomp_tables;
-#else
-    static const char FILE_NAME[] = "tables.bin";
-    int known = location != NULL && location[0] != 0 ? axcomp_path_of(location, FILE_NAME, instance->own_path)
-                                                     : axcomp_path_beside_library(FILE_NAME, instance->own_path);
-    if (!known) {
-        axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
-        return NULL;
-    }
-    Lists *lists = axcomp_read_lists(instance, fmi2Error, "fmi2Instantiate", instance->own_path);
-    return lists != NULL ? axcomp_share_lists(lists) : NULL;
-#endif
-}
 
 FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
                                                      fmi2String location, const fmi2CallbackFunctions *callbacks,
@@ -94,7 +61,7 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
     if (callbacks != NULL) {
         instance->callbacks = *callbacks;
     }
-    log_as_wanted(instance, logging, ~0u);
+    axcomp_log_as_wanted(instance, logging != fmi2False, ~0u);
     if (type != fmi2CoSimulation) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: this is an FMU for co-simulation");
         axcomp_free_instance(instance);
@@ -111,7 +78,7 @@ Instance *axcomp_begin_instance(Instance *instance, const char *name, const char
     } else if (guid == NULL) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
     } else {
-        instance->first = own_lists(instance, location);
+        instance->first = axcomp_own_lists(instance, location);
         usable = instance->first != NULL && strcmp(guid, instance->first->guid) == 0;
         if (!usable && instance->first != NULL) {
             axcomp_say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,

@@ -6,60 +6,9 @@
 
 #include "places.h"
 
-#if !defined(AXCOMP_EMBEDDED)
-#include <stdarg.h>
-#include <stdio.h>
-#endif
-
-enum { MESSAGE_LENGTH = 1024 };
-
 static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
-
-#if defined(AXCOMP_EMBEDDED)
-/* A real-time system has no log. */
-fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
-{
-    (void)instance, (void)format;
-    return status;
-}
-#else
-fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
-{
-    int category = status == fmi2OK ? CATEGORY_ALL : status == fmi2Warning ? CATEGORY_WARNING : CATEGORY_ERROR;
-    bool wanted = instance->logging && (instance->categories >> category & 1u) != 0;
-    bool heard = instance->callbacks.logger != NULL || instance->log != NULL;
-    if (!heard || (!wanted && category != CATEGORY_ERROR)) {
-        return status;
-    }
-    char message[MESSAGE_LENGTH] = "";
-    char doubled[2 * MESSAGE_LENGTH];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    if (instance->log != NULL) {
-        if (strncmp(message, "fmi2", 4) == 0) {
-            message[3] = '3';
-        }
-        axcomp_say_third(instance, status, axcomp_log_categories[category], message);
-        return status;
-    }
-    /* The host takes the message for a format. */
-    size_t length = 0;
-    for (const char *from = message; *from != 0; from++) {
-        if (*from == '%') {
-            doubled[length++] = '%';
-        }
-        doubled[length++] = *from;
-    }
-    doubled[length] = 0;
-    instance->callbacks.logger(instance->callbacks.componentEnvironment, instance->name, status,
-                               axcomp_log_categories[category], doubled);
-    return status;
-}
-#endif
 
 bool axcomp_cycle_time_fits(double cycle_time)
 {
@@ -103,36 +52,8 @@ void axcomp_begin_again(Instance *instance)
     memory->controls.cycle_time = instance->first->tables.cycle_time;
     memory->stop_time = HUGE_VAL;
     axcomp_use_lists(instance, instance->first);
-#if !defined(AXCOMP_EMBEDDED)
-    instance->waiting = NULL;
-#endif
+    axcomp_wait_for(instance, NULL);
 }
-
-#if defined(AXCOMP_EMBEDDED)
-/* There are no other lists than those in the sources: an update is refused. */
-void axcomp_watch_reload(Instance *instance, bool path_set)
-{
-    (void)path_set;
-    instance->memory.refused = instance->memory.controls.reload && !instance->memory.reload_seen;
-}
-
-void axcomp_take_update(Instance *instance)
-{
-    Memory *memory = &instance->memory;
-    for (int32_t i = 0; memory->refused && i < instance->tables.axis_count; i++) {
-        memory->state.axis[i].error = memory->outputs.axis[i].error = ERROR_UPDATE;
-    }
-    memory->refused = false;
-    memory->reload_seen = memory->controls.reload;
-}
-
-const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
-{
-    return instance->first->identity == identity ? instance->first
-        : instance->lists->identity == identity  ? instance->lists
-                                                 : NULL;
-}
-#endif
 
 void axcomp_preview_outputs(Instance *instance)
 {

@@ -57,12 +57,12 @@ typedef struct {
     State preview;        /* of the cycle that is computed during initialization, without being run */
     uint32_t told[KINDS + 1]; /* bit i: that a kind of axis i was used beyond its table; the last: a switch was none */
     void *block;          /* the arrays of `memory`, `begin` and `preview` */
-    bool event_mode;      /* the host speaks FMI 3.0 and uses event mode */
+    void (*log)(void);    /* fmi3LogMessageCallback of a host that speaks FMI 3.0, else NULL */
+    bool event_mode;      /* such a host uses event mode */
     bool stale;           /* in event mode: the outputs do not belong to the inputs yet */
 #if !defined(AXCOMP_EMBEDDED)
     Lists *own;           /* all that were read by `reload`: a saved state may come back to them */
     Lists *waiting;       /* of these: for the next step; NULL: none */
-    void (*log)(void);    /* fmi3LogMessageCallback of a host that speaks FMI 3.0 */
     bool logging;
     unsigned categories;  /* bit k: category k of axcomp_log_categories */
     char *name;
@@ -76,10 +76,9 @@ extern const char *const axcomp_log_categories[CATEGORIES];
 /* Tell the host; errors always, the rest if it wants to know. Returns `status`. */
 fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...);
 
-#if !defined(AXCOMP_EMBEDDED)
-/* The same for a host that speaks FMI 3.0. */
-void axcomp_say_third(const Instance *instance, fmi2Status status, const char *category, const char *message);
-#endif
+/* What the host wants to be told from now on; `categories`: bit k: category k of axcomp_log_categories. */
+void axcomp_log_as_wanted(Instance *instance, bool on, unsigned categories);
+
 
 /* Make an instance that has neither tables nor arrays yet; NULL: there is no memory. */
 Instance *axcomp_new_instance(const char *name);
@@ -117,6 +116,13 @@ void axcomp_watch_reload(Instance *instance, bool path_set);
 /* Take the lists that wait, or tell by the outputs that they were refused. */
 void axcomp_take_update(Instance *instance);
 
+/* Lists that the next step takes, NULL: none. */
+const Lists *axcomp_waiting_lists(const Instance *instance);
+void axcomp_wait_for(Instance *instance, const Lists *lists);
+
+/* The tables that belong to this FMU; NULL after telling the host why there are none. */
+const Lists *axcomp_own_lists(Instance *instance, fmi2String location);
+
 /* The instance's lists with an identity, NULL if it has none. */
 const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
 
@@ -143,12 +149,6 @@ Instance *axcomp_allowed(fmi2Component component, unsigned phases, const char *f
 
 /* The instance, if a pointer that a call needs is there; else NULL, after telling the host. */
 Instance *axcomp_given(Instance *instance, const void *pointer, const char *function);
-
-#if !defined(AXCOMP_EMBEDDED)
-/* Read the tables of an image. Returns lists that hang nowhere yet, or NULL after telling the host with `status` what is
- * wrong; `call`: who wants them. */
-Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path);
-#endif
 
 #ifdef __cplusplus
 }

@@ -184,6 +184,8 @@ static bool advance_switch(const SwitchTable *table, SwitchState *state, bool re
         }
     } else if (step > 0) {
         step -= 1;
+    } else {
+        /* nothing */
     }
     if (step != state->step) {
         double weight = ramp(step, table->cycles);
@@ -299,6 +301,8 @@ static double backlash_value(const BacklashTable *table, BacklashState *state, i
         }
     } else if (state->step > 0) {
         state->step -= 1;
+    } else {
+        /* nothing */
     }
     return backlash_at(table, state);
 }
@@ -334,6 +338,8 @@ static int32_t search_interval(const double *pool, int32_t first, int32_t points
         }
     } else if (x >= pool[first + last - 1]) {
         return last - 1;
+    } else {
+        /* nothing */
     }
     double intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end;
     int32_t low = int_min(int_max(last + (int32_t)intervals, 0), end - 1);
@@ -981,6 +987,8 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
         }
     } else if (state->reversal_step < table->reversal_cycles) {
         state->reversal_step += 1;
+    } else {
+        /* nothing */
     }
 
     return leadscrew_at(pool, table, state, position);
@@ -999,6 +1007,8 @@ static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *
         state->backward = motion->direction < 0;
     } else if (before->without_other != after->without_other) {
         state->counted = leadscrew_input(after, motion->setpoint, added);
+    } else {
+        /* nothing */
     }
     state->reversal_step = mapped_step(state->reversal_step, before->reversal_cycles, after->reversal_cycles);
 }
@@ -1232,6 +1242,8 @@ static void adopt_compensation(int32_t kind, const CompensationTables *before, c
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
         adopt_friction(&before->friction, &after->friction, &states->friction);
+    } else {
+        /* nothing */
     }
 }
 
@@ -1248,6 +1260,8 @@ static void move_compensation(int32_t kind, CompensationTables *tables, int32_t 
         move_leadscrew(&tables->leadscrew, by);
     } else if (kind == FRICTION) {
         move_friction(&tables->friction, by);
+    } else {
+        /* nothing */
     }
 }
 
@@ -1386,6 +1400,8 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
             }
         } else if (!axis->started) {
             state->wanted = given->wanted[kind];
+        } else {
+            /* nothing */
         }
         if (!axis->held) {
             out->active[kind] = state->step > 0;
@@ -2120,6 +2136,8 @@ static double factor_of(const VolumetricInputs *given, int32_t letter)
         factor = 1.0 - given->reduction_y;
     } else if (letter == LINEAR - 1) {
         factor = 1.0 - given->reduction_z;
+    } else {
+        /* nothing */
     }
     if (factor >= 0.0) {
         return double_min(factor, 1.0);
@@ -2295,6 +2313,8 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         set_error(table, state, ERROR_PROGRAM_END);
     } else if (table->manual && volumetric->command && !ready) {
         take_command(volumetric, given, false);
+    } else {
+        /* nothing */
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
@@ -2306,6 +2326,8 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         }
     } else if (!volumetric->on && volumetric->command && ready && can_turn_round(volumetric)) {
         switch_on(table, volumetric, state);
+    } else {
+        /* nothing */
     }
 }
 
@@ -2321,6 +2343,8 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->wanted_factor[d] = 1.0;
         }
+    } else {
+        /* nothing */
     }
     for (int32_t b = 0; b < ERRORS; b++) {
         volumetric->section[b] = 0;
@@ -2377,6 +2401,8 @@ static void advance_filters(const VolumetricTable *table, VolumetricState *volum
             volumetric->waiting[d] = false;
         } else if (volumetric->shift[d] != 0.0 && volumetric->release[d] == 0.0 && !volumetric->waiting[d]) {
             take_shift_back(volumetric, d);
+        } else {
+            /* nothing */
         }
     }
     double share = share_of_cycle(table, volumetric);

@@ -4,8 +4,6 @@
 #endif
 #include "resource.h"
 
-#include "config.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +20,7 @@
 #include <wchar.h>
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
-#elif !defined(AXCOMP_EMBEDDED)
+#else
 #include <dlfcn.h>
 #endif
 
@@ -122,14 +120,6 @@ int axcomp_path_of(const char *location, const char *file, char *path)
     return 1;
 }
 
-#if defined(AXCOMP_EMBEDDED)
-int axcomp_path_beside_library(const char *file, char *path)
-{
-    (void)file;
-    path[0] = 0;
-    return 0;
-}
-#else
 /* Put the path of this library into `path`; 0 if that does not work. */
 static int path_of_library(char *path)
 {
@@ -165,7 +155,6 @@ int axcomp_path_beside_library(const char *file, char *path)
     memcpy(path + length + sizeof RESOURCES - 1, file, strlen(file) + 1);
     return 1;
 }
-#endif
 
 static FILE *open_file(const char *path)
 {

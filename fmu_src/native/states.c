@@ -24,16 +24,6 @@ typedef struct {
 
 enum { CHECKED = offsetof(Saved, layout), PATH = offsetof(Saved, memory) + offsetof(Memory, controls.update_path) };
 
-static const Lists *waiting_lists(const Instance *instance)
-{
-#if defined(AXCOMP_EMBEDDED)
-    (void)instance;
-    return NULL;
-#else
-    return instance->waiting;
-#endif
-}
-
 /* Where the arrays begin in a state whose path has so many bytes with its end. */
 static size_t arrays_at(size_t path)
 {
@@ -74,7 +64,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
         return fmi2Error;
     }
     const Memory *memory = &instance->memory;
-    const Lists *waiting = waiting_lists(instance);
+    const Lists *waiting = axcomp_waiting_lists(instance);
     Shape shape;
     axcomp_shape_of(&instance->tables, &shape);
     size_t path = strlen(memory->controls.update_path) + 1u;
@@ -151,9 +141,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     axcomp_copy_inputs(&memory->slopes, &from->slopes, &shape);
     axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
     axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
-#if !defined(AXCOMP_EMBEDDED)
-    instance->waiting = saved->waits != 0 ? (Lists *)axcomp_lists_with(instance, saved->waiting) : NULL;
-#endif
+    axcomp_wait_for(instance, saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL);
     instance->stale = true;
     return fmi2OK;
 }

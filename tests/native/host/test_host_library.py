@@ -48,7 +48,7 @@ def symbols(library: Path, *options: str) -> list[tuple[str, str]]:
     return [(words[-2], words[-1].split("@")[0]) for line in text.splitlines() if len(words := line.split()) > 1]
 
 
-@pytest.mark.parametrize("way", ["gcc", "gcc-avx2", pytest.param("zig", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("way", ["gcc", "gcc-avx2", pytest.param("linux64", marks=pytest.mark.slow)])
 def test_the_library_needs_libc_only(host: Callable[[str], Program], way: str) -> None:
     needed = {name for _, name in symbols(host(way).library, "-D", "--undefined-only")}
     assert needed <= LIBC | SAME_EVERYWHERE | STARTUP

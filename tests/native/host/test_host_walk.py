@@ -431,7 +431,7 @@ def test_any_sequence_of_calls(host: Callable[[str], Program], way: str, seed: i
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("way", ["valgrind", "zig", "win64", "aarch64"])
+@pytest.mark.parametrize("way", ["valgrind", "linux64", "win64", "aarch64"])
 def test_any_sequence_of_calls_elsewhere(host: Callable[[str], Program], way: str, resources: Path) -> None:
     walk = Walk(99)
     walk.go(800)

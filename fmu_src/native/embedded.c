@@ -1,9 +1,8 @@
-/* Where instances and saved states get their memory: from the heap, or, among other sources, from arrays. */
-#include "instance.h"
-
+/* What only the sources in an FMU have: the tables stand among them (tables.c), instances and saved states in arrays; there
+ * is no log, and there are no other lists than these. */
 #include <string.h>
 
-#if defined(AXCOMP_EMBEDDED)
+#include "instance.h"
 
 #ifndef AXCOMP_INSTANCES
 #define AXCOMP_INSTANCES 4 /* that there can be at a time */
@@ -101,107 +100,54 @@ void axcomp_free_state(void *state)
     }
 }
 
-#else
-
-#include <stdlib.h>
-
-#include "lists.h"
-
-Instance *axcomp_new_instance(const char *name)
+fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
 {
-    Instance *instance = (Instance *)calloc(1, sizeof *instance);
-    if (instance != NULL) {
-        instance->name = (char *)malloc(strlen(name) + 1);
-        if (instance->name == NULL) {
-            free(instance);
-            return NULL;
-        }
-        memcpy(instance->name, name, strlen(name) + 1);
+    (void)instance, (void)format;
+    return status;
+}
+
+void axcomp_log_as_wanted(Instance *instance, bool on, unsigned categories)
+{
+    (void)instance, (void)on, (void)categories;
+}
+
+const Lists *axcomp_own_lists(Instance *instance, fmi2String location)
+{
+    (void)instance, (void)location;
+    return &axcomp_tables;
+}
+
+/* An update is refused. */
+void axcomp_watch_reload(Instance *instance, bool path_set)
+{
+    (void)path_set;
+    instance->memory.refused = instance->memory.controls.reload && !instance->memory.reload_seen;
+}
+
+void axcomp_take_update(Instance *instance)
+{
+    Memory *memory = &instance->memory;
+    for (int32_t i = 0; memory->refused && i < instance->tables.axis_count; i++) {
+        memory->state.axis[i].error = memory->outputs.axis[i].error = ERROR_UPDATE;
     }
-    return instance;
+    memory->refused = false;
+    memory->reload_seen = memory->controls.reload;
 }
 
-bool axcomp_give_arrays(Instance *instance)
+const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
 {
-    const Shape *shape = &instance->shape;
-    instance->block = calloc(1, axcomp_block_size(shape));
-    if (instance->block != NULL) {
-        axcomp_place_arrays(instance);
-    }
-    return instance->block != NULL;
+    return instance->first->identity == identity ? instance->first
+        : instance->lists->identity == identity  ? instance->lists
+                                                 : NULL;
 }
 
-void axcomp_free_instance(Instance *instance)
+const Lists *axcomp_waiting_lists(const Instance *instance)
 {
-    axcomp_release_lists(instance->first);
-    while (instance->own != NULL) {
-        Lists *next = instance->own->next;
-        axcomp_free_lists(instance->own);
-        instance->own = next;
-    }
-    free(instance->block);
-    free(instance->name);
-    free(instance);
+    (void)instance;
+    return NULL;
 }
 
-/* Free what was changed, is not in force any more, and no state refers to. */
-static void forget_tuned(Instance *instance)
+void axcomp_wait_for(Instance *instance, const Lists *lists)
 {
-    for (Lists **link = &instance->own; *link != NULL;) {
-        Lists *lists = *link;
-        if (lists->tuned && !lists->saved && lists != instance->lists) {
-            *link = lists->next;
-            axcomp_free_lists(lists);
-        } else {
-            link = &lists->next;
-        }
-    }
+    (void)instance, (void)lists;
 }
-
-Lists *axcomp_copy_lists(Instance *instance)
-{
-    const Lists *from = instance->lists;
-    const Tables *tables = &from->tables;
-    size_t axes = (size_t)tables->axis_count, volumetrics = (size_t)tables->volumetrics, numbers = (size_t)from->numbers;
-    forget_tuned(instance);
-    Lists *lists = (Lists *)malloc(sizeof *lists);
-    if (lists == NULL) {
-        return NULL;
-    }
-    *lists = *from;
-    lists->tuned = true;
-    lists->saved = false;
-    lists->users = 0;
-    double *pool = (double *)malloc((numbers + 1u) * sizeof *pool);
-    lists->pool = pool;
-    lists->tables.axis = (AxisTable *)malloc((axes + 1u) * sizeof(AxisTable));
-    lists->tables.volumetric = (VolumetricTable *)malloc((volumetrics + 1u) * sizeof(VolumetricTable));
-    if (pool == NULL || lists->tables.axis == NULL || lists->tables.volumetric == NULL) {
-        axcomp_free_lists(lists);
-        return NULL;
-    }
-    memcpy(pool, from->pool, numbers * sizeof *pool);
-    memcpy(lists->tables.axis, tables->axis, axes * sizeof(AxisTable));
-    memcpy(lists->tables.volumetric, tables->volumetric, volumetrics * sizeof(VolumetricTable));
-    lists->next = instance->own;
-    instance->own = lists;
-    return lists;
-}
-
-void axcomp_drop_lists(Instance *instance, Lists *copy)
-{
-    instance->own = copy->next;
-    axcomp_free_lists(copy);
-}
-
-void *axcomp_new_state(size_t size)
-{
-    return calloc(1, size);
-}
-
-void axcomp_free_state(void *state)
-{
-    free(state);
-}
-
-#endif
