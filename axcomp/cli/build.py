@@ -39,6 +39,7 @@ examples:
   axcomp build --platforms linux64,win64
   axcomp build --machine lists/hochlauf.lis --fmi 2.0 3.0
   axcomp build --runtime python
+  axcomp build --ssp
   axcomp build --machine lists/hochlauf.lis --image new.bin
 """
 
@@ -57,6 +58,15 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     outputs = parser.add_mutually_exclusive_group()
     outputs.add_argument("--output", type=Path, metavar="FILE", help="default: NAME.fmu in the current folder")
     outputs.add_argument("--image", type=Path, metavar="FILE", help="write an image of the tables, and no FMU")
+    outputs.add_argument(
+        "--ssp",
+        type=Path,
+        nargs="?",
+        const=Path("machine.ssp"),
+        metavar="FILE",
+        help="write compensation and plant as a system of SSP 1.0 (default: machine.ssp); the plant is plant.json "
+        "beside the lists, input.csv there its commands",
+    )
     parser.add_argument(
         "--runtime", choices=("native", "python"), default="native", help="what runs in the FMU (default: native)"
     )
@@ -144,7 +154,7 @@ def _do_build(args: argparse.Namespace) -> int:
                 print(said)
             else:
                 print(f"note: {said}", file=sys.stderr)
-        if args.machine is None and args.output is None and args.image is None:
+        if args.machine is None and args.output is None and args.image is None and args.ssp is None:
             print(package_plant(example, Path.cwd(), external_tool=not args.no_external_tool).name)
     except NoCompilerError as error:
         print(f"axcomp build: {error}\n--runtime python needs no compiler.", file=sys.stderr)
@@ -161,6 +171,18 @@ def _build(args: argparse.Namespace, lists: Path) -> list[Built]:
     """Return what was built: an FMU for each version of FMI, or an image."""
     if args.image is not None:
         return [write_image(lists, args.image, cycle_time=args.cycle_time, axis_type=args.axis_type)]
+    if args.ssp is not None:
+        from ..demo import write_ssp
+
+        built = write_ssp(
+            lists,
+            args.ssp,
+            cycle_time=args.cycle_time,
+            platforms=args.platforms,
+            axis_type=args.axis_type,
+            external_tool=not args.no_external_tool,
+        )
+        return [built]
     output = args.output or Path.cwd()
     if args.runtime == "native":
         versions = [version for version in VERSIONS if version in args.fmi]
