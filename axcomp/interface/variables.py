@@ -54,7 +54,7 @@ def variables_of(
     cycle_time : float
         Start value of the parameter of that name, s.
     types : str
-        ``own``, or ``real``: Booleans and Integers are Real, for importers that take everything as Real.
+        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, for importers that take all as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
     every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))
@@ -91,7 +91,7 @@ def variables_of(
     for one in machine.volumetric:
         variables += _of_volumetric(machine, one, inputs, naming)
     if types == "real":
-        variables = [v if isinstance(v.start, str) else _as_real(v) for v in variables]
+        variables = [_as_real(v) for v in variables if not isinstance(v.start, str)]
     return tuple(variables)
 
 

@@ -29,7 +29,7 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     if (instance->log != NULL) {
-        if (strncmp(message, "fmi2", 4) == 0) {
+        if (memcmp(message, "fmi2", 4) == 0) {
             message[3] = '3';
         }
         ((fmi3LogMessageCallback)instance->log)(instance->callbacks.componentEnvironment, (fmi3Status)status,
