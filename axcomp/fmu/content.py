@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from .. import __version__
 from ..interface import Naming, Types, Variable, identifier, variables_of
@@ -25,6 +25,10 @@ NAME = "axcomp"
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 PACKAGE = Path(__file__).resolve().parents[1]
+
+
+Version = Literal["2.0", "3.0"]
+"""Of FMI."""
 
 
 class Built(NamedTuple):
