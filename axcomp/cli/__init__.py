@@ -8,10 +8,10 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.util import find_spec
 from types import ModuleType
 
 from .. import __version__
+from ..model import EXTRAS, MissingExtraError, missing, sentence
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
@@ -36,14 +36,18 @@ That sets ``do``: a function of the options → exit status. Only the module of 
 """
 
 EXTRA = {
-    "sweep": ("dask", "pandas"),
-    "measure": ("rich",),
-    "create": ("rich",),
-    "show": ("rich",),
-    "diagnose": ("openpyxl",),
-    "replay": ("rich",),
+    "demo": "demo",
+    "bench": "demo",
+    "measure": "measure",
+    "create": "measure",
+    "show": "plot",
+    "sweep": "sweep",
+    "budget": "measure",
+    "report": "measure",
+    "replay": "plot",
+    "diagnose": "tables",
 }
-"""Packages of the extra ``workbench`` without which a command does nothing."""
+"""The extra without which a command does nothing."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -55,15 +59,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--version", action="version", version=f"axcomp {__version__}")
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
-    missing = [name for name, packages in EXTRA.items() if not all(map(find_spec, packages))]
+    absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
+    lacking = [name for name, extra in EXTRA.items() if extra in absent]
     if given and given[0] in COMMANDS:
         _module(given[0]).add_subparser(subparsers)
     else:
         for name, what in COMMANDS.items():
-            if name not in missing:
+            if name not in lacking:
                 subparsers.add_parser(name, help=what)
-    if missing:
-        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(missing)}."
+    if lacking:
+        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(lacking)}."
     options = parser.parse_args(given)
     try:
         status: int = options.do(options)
@@ -75,7 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     except ModuleNotFoundError as error:
-        print(f"axcomp: {error.name} is missing; pip install 'axcomp[workbench]' installs it.", file=sys.stderr)
+        print(f"axcomp: {_lacking(given[0], error)}", file=sys.stderr)
         return 1
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
@@ -94,7 +99,16 @@ def _module(name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
             raise
-        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[workbench]'") from None
+        raise SystemExit(f"axcomp: {_lacking(name, error)}") from None
+
+
+def _lacking(command: str, error: ModuleNotFoundError) -> str:
+    """Return what to install for a command."""
+    if isinstance(error, MissingExtraError):
+        return str(error)
+    extra = EXTRA.get(command, "")
+    package = (error.name or "").partition(".")[0]
+    return sentence(package, extra if package in EXTRAS.get(extra, ()) else "", command)
 
 
 def _print_anything() -> None:

@@ -102,7 +102,7 @@ def _do_run(args: argparse.Namespace) -> int:
         sys.stdout.writelines(f"{line}\n" for line in result.csv_lines())
     else:
         result.to_csv(args.output)
-        print(f"{args.output}: {len(result)} cycles, {len(result.values)} outputs")
+        print(f"{args.output}: {result.cycles} cycles, {len(result)} outputs")
     return 0
 
 
