@@ -8,7 +8,6 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from types import ModuleType
 
 from .. import __version__
 from ..model import EXTRAS, MissingExtraError, missing, sentence
@@ -62,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
     lacking = [name for name, extra in EXTRA.items() if extra in absent]
     if given and given[0] in COMMANDS:
-        _module(given[0]).add_subparser(subparsers)
+        _add(given[0], subparsers)
     else:
         for name, what in COMMANDS.items():
             if name not in lacking:
@@ -92,10 +91,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return status
 
 
-def _module(name: str) -> ModuleType:
-    """Import the module of a command; SystemExit with a sentence if one of its packages is missing."""
+def _add(name: str, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add a command; SystemExit with a sentence if one of its packages is missing."""
     try:
-        return import_module(f".{name}", __name__)
+        import_module(f".{name}", __name__).add_subparser(subparsers)
     except ModuleNotFoundError as error:
         if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
             raise

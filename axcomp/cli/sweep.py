@@ -49,7 +49,7 @@ SPEC is a TOML file, or JSON with the same keys; paths count from where it lies:
   "half way" = "at 5.0 Y.corrected_setpoint"
 
 Rows have the order of SPEC, whatever ends first. Stopped and started again, a sweep goes on where it was: FILE.journal
-holds what is done. A run that fails has its error in the row. Workers of a cluster need axcomp[workbench] too.
+holds what is done. A run that fails has its error in the row. Workers of a cluster need axcomp[sweep] too.
 
 examples:
   axcomp sweep sweep.toml --output results.parquet

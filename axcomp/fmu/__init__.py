@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         generation_date as generation_date,
         write_fmu as write_fmu,
     )
+    from .bill import BILL as BILL, bill_of_archive as bill_of_archive
     from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built
     from .description import Description as Description, model_description as model_description
     from .instance import Instance as Instance
@@ -33,6 +34,7 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         archive="BuildError content_guid file_bytes generation_date write_fmu",
+        bill="BILL bill_of_archive",
         content="Built NAME PACKAGE",
         description="Description model_description",
         instance="Instance",

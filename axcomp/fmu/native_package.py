@@ -28,6 +28,7 @@ from ..native import (
     why_not_prebuilt,
 )
 from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
+from .bill import BILL, bill_of_fmu
 from .content import NAME, Built, output_path, read_content
 from .description import model_description
 from .embedded import TABLES_SOURCE, embedded_sources
@@ -89,7 +90,7 @@ def package_native(
     files.update(embedded_sources(content, guid))
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
     path = output_path(output, f"{name}.fmu")
-    write_fmu(path, files)
+    write_fmu(path, {**files, BILL: bill_of_fmu(files)})
     return content._replace(path=path, note=note)
 
 

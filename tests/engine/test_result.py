@@ -54,7 +54,7 @@ def test_a_picture_has_a_panel_a_unit_and_names_what_it_does_not_know() -> None:
     assert [ax.get_ylabel() for ax in figure.axes] == ["[mm]", "on", "bare number"]
     assert figure.axes[-1].get_xlabel() == "time [s]"
     assert len(result.plot().axes) >= 2
-    with pytest.raises(KeyError, match="Q.nothing: no output"):
+    with pytest.raises(KeyError, match=r"Q\.nothing: no output"):
         result.plot("Q.nothing")
 
 

@@ -119,7 +119,7 @@ def test_without_rich_a_sentence_says_what_to_install_and_files_are_still_writte
     monkeypatch.delitem(sys.modules, "axcomp.plot.terminal", raising=False)
     monkeypatch.setitem(sys.modules, "rich", None)
     assert main(["show", str(lists), "--kind", "cross"]) == 1
-    assert "axcomp[workbench]" in capsys.readouterr().err
+    assert "axcomp[plot]" in capsys.readouterr().err
     assert main(["show", str(lists), "--kind", "cross", "--output", str(tmp_path / "c.csv")]) == 0
 
 
