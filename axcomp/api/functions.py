@@ -1,4 +1,4 @@
-"""What the commands do, as functions for scripts and notebooks; ``axcomp`` offers them all.
+"""What the commands do, as functions.
 
 Paths are those that the commands take: a start-up list, a folder with one, or a single list. What is wrong with lists
 becomes findings; what cannot be done raises with the sentence that the command prints.
@@ -12,19 +12,19 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from .lists import Reading, TypeName, decode, read_machine
-from .model import CYCLE_TIME, Machine, as_html, needed
+from ..lists import Reading, TypeName, decode, read_machine
+from ..model import CYCLE_TIME, Machine, as_html, needed
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from .analysis.budget import Budget
-    from .fit import Creation
-    from .fmu import Built
-    from .interface import Naming
-    from .measurement import Conditions, Iso230Result
-    from .plot import Content
+    from ..analysis.budget import Budget
+    from ..fit import Creation
+    from ..fmu import Built
+    from ..interface import Naming
+    from ..measurement import Conditions, Iso230Result
+    from ..plot import Content
 
     AnyPath = str | os.PathLike[str]
 
@@ -75,7 +75,7 @@ def build_fmu(
     ...     built.path.name, len(built.variables) > 10
     ('axcomp.fmu', True)
     """
-    from .fmu import BuildError, package_axcomp, package_native
+    from ..fmu import BuildError, package_axcomp, package_native
 
     given: dict[str, Any] = {"cycle_time": cycle_time, "naming": naming, "axis_type": axis_type, "name": name}
     if runtime == "native":
@@ -103,7 +103,7 @@ def check(lists: AnyPath, *, axis_type: TypeName | None = None, tool_length: flo
     >>> [str(finding) for finding in check(models() / "three_axis", tool_length=50.0).findings]
     []
     """
-    from .analysis.judgement import judge
+    from ..analysis.judgement import judge
 
     reading = read_machine(lists, axis_type=axis_type)
     return replace(
@@ -116,7 +116,7 @@ def measure(file: AnyPath, conditions: Conditions | None = None) -> Iso230Result
 
     ``conditions``: of the test, for expanded uncertainties.
     """
-    from .measurement import evaluate, read_positioning
+    from ..measurement import evaluate, read_positioning
 
     return evaluate(read_positioning(Path(file)), conditions)
 
@@ -161,8 +161,8 @@ def create(
     Traceback (most recent call last):
     axcomp.measurement.columns.MeasurementError: no.rtl: The file cannot be read: No such file or directory.
     """
-    from .fit import FITS, Options, create as make, fit_of
-    from .measurement import joined
+    from ..fit import FITS, Options, create as make, fit_of
+    from ..measurement import joined
 
     if kind not in FITS:
         raise ValueError(f"there is nothing to create called {kind}; there are {', '.join(FITS)}")
@@ -203,7 +203,7 @@ def convert(source: AnyPath, to: str, *, axis: str | None = None, kind: str | No
     >>> convert(models() / "rotary_table", "csv", axis="C", kind="leadscrew").splitlines()[0][:6]
     'axis,u'
     """
-    from .conversion import FORMATS, CannotHoldError, FormatError, Options, recognized, tables_of, written
+    from ..conversion import FORMATS, CannotHoldError, FormatError, Options, recognized, tables_of, written
 
     if to not in FORMATS:
         raise ValueError(f"there is no format {to}; there are {', '.join(FORMATS)}")
@@ -293,7 +293,7 @@ def show(
     >>> show(models() / "rotary_table", kind="leadscrew")
     Tables(rotary_table: C-leadscrew)
     """
-    from .plot import contents_of
+    from ..plot import contents_of
 
     first = _machine(lists)
     contents = contents_of(first, axis, kind, tool_length)
@@ -327,14 +327,14 @@ def budget(
     >>> list(budget(machine, machine / "input.csv", cycle_time=0.001).totals)
     ['C']
     """
-    from .analysis.budget import budget_of
-    from .engine import read_input
+    from ..analysis.budget import budget_of
+    from ..engine import read_input
 
     return budget_of(_machine(lists), read_input(Path(path)), tool_length=tool_length, cycle_time=cycle_time)
 
 
 def _machine(lists: AnyPath | Machine) -> Machine:
-    from .lists import ListError
+    from ..lists import ListError
 
     if isinstance(lists, Machine):
         return lists
