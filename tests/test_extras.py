@@ -27,7 +27,8 @@ class Only:
     def find_spec(name, path=None, target=None):
         top = name.partition(".")[0]
         return PathFinder.find_spec(name, path, target) if top in allowed or top.startswith("_") else None
-sys.meta_path[:] = [one for one in sys.meta_path if getattr(one, "__name__", "") in ("BuiltinImporter", "FrozenImporter")]
+own = ("BuiltinImporter", "FrozenImporter")
+sys.meta_path[:] = [one for one in sys.meta_path if getattr(one, "__name__", "") in own]
 sys.meta_path.append(Only)
 from axcomp.cli import main
 sys.exit(main(sys.argv[2:]))

@@ -21,6 +21,13 @@ if TYPE_CHECKING:
     )
     from .nc_scanner import NcError as NcError
     from .result import Result as Result
+    from .sheet import (
+        Row as Row,
+        Sheet as Sheet,
+        SheetError as SheetError,
+        number as number,
+        read_sheets as read_sheets,
+    )
     from .tcp_model import TcpModel as TcpModel
     from .trajectory import (
         LIMITS as LIMITS,
@@ -43,6 +50,7 @@ else:
         "parse_block",
         nc_scanner="NcError",
         result="Result",
+        sheet="Row Sheet SheetError number read_sheets",
         tcp_model="TcpModel",
         trajectory="Columns InputError InputFile LIMITS Motion Sine TIME completed read_input read_table",
     )
