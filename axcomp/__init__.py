@@ -84,7 +84,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _ROOM_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(f".{_ROOM_OF[name]}", __name__), name)
+    found = globals()[name] = getattr(import_module("." + _ROOM_OF[name], __name__), name)
     return found
 
 

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from .. import __version__
-from ..model import EXTRAS, MissingExtraError, missing, sentence
+from ..model import EXTRAS, MissingExtraError, missing, needed, sentence
+from .parser import Parser, refusal
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
@@ -51,32 +52,16 @@ EXTRA = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status: 2 for a wrong command line, else what the command says."""
-    _print_anything()
-    parser = argparse.ArgumentParser(
-        prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
-    )
-    parser.add_argument("--version", action="version", version=f"axcomp {__version__}")
-    subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
-    absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
-    lacking = [name for name, extra in EXTRA.items() if extra in absent]
-    if given and given[0] in COMMANDS:
-        _add(given[0], subparsers)
-    else:
-        for name, what in COMMANDS.items():
-            if name not in lacking:
-                subparsers.add_parser(name, help=what)
-    if lacking:
-        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(lacking)}."
-    options = parser.parse_args(given)
+    _print_anything()
     try:
-        status: int = options.do(options)
-        sys.stdout.flush()
+        return _run(given)
     except BrokenPipeError:
         # The reader of a pipe has seen enough; Python must not try to flush the rest on its way out.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 1
     except KeyboardInterrupt:
+        print("axcomp: interrupted", file=sys.stderr)
         return 130
     except ModuleNotFoundError as error:
         print(f"axcomp: {_lacking(given[0], error)}", file=sys.stderr)
@@ -88,6 +73,35 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ValueError as error:
         print(f"axcomp: {error}", file=sys.stderr)
         return 1
+
+
+def _run(given: Sequence[str]) -> int:
+    parser = Parser(
+        prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
+    )
+    parser.add_argument("--version", action="version", version=f"axcomp {__version__}")
+    subparsers: argparse._SubParsersAction[argparse.ArgumentParser]
+    subparsers = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
+    completed = os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []
+    command = next(iter([*given, *completed]), "")
+    absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
+    lacking = [name for name, extra in EXTRA.items() if extra in absent]
+    if command in COMMANDS:
+        _add(command, subparsers)
+    else:
+        for name, what in COMMANDS.items():
+            if name not in lacking:
+                subparsers.add_parser(name, help=what)
+    if lacking:
+        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(lacking)}."
+    if "_ARGCOMPLETE" in os.environ:
+        needed("argcomplete", "completion", "Completion").autocomplete(parser)
+    options = parser.parse_args(given)
+    if sentence_ := refusal(options):
+        print(f"axcomp {command}: {sentence_}", file=sys.stderr)
+        return 1
+    status: int = options.do(options)
+    sys.stdout.flush()
     return status
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import shutil
 import sys
+import textwrap
 from pathlib import Path
 
 from ..model import CYCLE_TIME, machine_path, models
+from .progress import progress
 
 PICTURE = "demo.png"
 
@@ -15,6 +18,10 @@ Largest errors: true position of the tool against the raw setpoint, without and 
 one), the others on; geometric errors at standstill, crosstalk while the other axis changes speed, friction as peaks at
 the reversals of a circle; TCP: the tool tip as the workpiece sees it, with and without all volumetric compensations,
 at standstill. The FMUs step side by side: a delay of one communication step between them is inherent."""
+
+NEXT = """
+Next: axcomp show models/three_axis --output tables.html
+      axcomp check PATH/TO/YOUR/LISTS"""
 
 EXAMPLE = """\
 PATH needs a plant.json beside the lists: drives, friction and geometric errors of the machine.
@@ -50,7 +57,8 @@ def _do_demo(args: argparse.Namespace) -> int:
     from ..demo import BuildError, DemoError, demonstrate, draw, table
 
     try:
-        machine, results, note = demonstrate(args.machine or models() / "three_axis", args.output)
+        with progress("cycles") as show:
+            machine, results, note = demonstrate(args.machine or models() / "three_axis", args.output, show)
         draw(args.output / PICTURE, machine, results, CYCLE_TIME)
     except (BuildError, DemoError) as error:
         print(f"axcomp demo: {error}", file=sys.stderr)
@@ -58,5 +66,6 @@ def _do_demo(args: argparse.Namespace) -> int:
     if note:
         print(f"axcomp demo: {note}", file=sys.stderr)
     print(table(results))
-    print(f"\n{NOTE}\n{args.output / PICTURE}")
+    width = shutil.get_terminal_size((120, 25)).columns
+    print(f"\n{textwrap.fill(NOTE, width)}\n\n{args.output / PICTURE}\n{NEXT}")
     return 0

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .check import STATUS_MAX
+from .progress import progress
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,7 +88,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
     job, findings = job_of(spec)
     for finding in findings:
         print(finding, file=sys.stderr)
-    with _progress() as show:
+    with progress("runs") as show:
         try:
             sweep = run_sweep(
                 spec, job, args.output, scheduler=args.scheduler, workers=args.workers, retry=args.retry, progress=show
@@ -147,16 +146,3 @@ def _print(output: Path, table: pd.DataFrame, taken_over: int) -> None:
     terminal.console().print(
         terminal.table(f"{output}: {len(table)} runs{before}{more}", [str(name) for name in shown], rows)
     )
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """Keep a progress bar on standard error; it takes how many runs are done, and of how many."""
-    from rich import progress as rich
-    from rich.console import Console
-
-    columns = [rich.TextColumn("runs"), rich.BarColumn(), rich.MofNCompleteColumn()]
-    columns += [rich.TimeElapsedColumn(), rich.TimeRemainingColumn()]
-    with rich.Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("runs", total=None)
-        yield lambda done, of: bar.update(task, completed=done, total=of)

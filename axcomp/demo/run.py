@@ -7,7 +7,7 @@ import pickle
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,10 +18,13 @@ from ..engine import Array
 from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native
 from ..model import CYCLE_TIME, Machine
 from ..plant import package_plant, plant_variables
-from .coupling import BATCH, COMMANDS, COMPENSATION, PLANT, RESULTS, Batch, Simulation
+from .coupling import BATCH, COMMANDS, COMPENSATION, DONE, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
 from .trials import TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
 
+Progress = Callable[[int, int], None]
+POLL = 0.1
+"""Seconds between two looks at how far the trials are."""
 PROCESSES = 2
 """That run the trials side by side."""
 
@@ -38,8 +41,10 @@ class Demo(NamedTuple):
     note: str = ""
 
 
-def demonstrate(lists: Path, output: Path) -> Demo:
+def demonstrate(lists: Path, output: Path, progress: Progress = lambda _done, _of: None) -> Demo:
     """Build ``axcomp.fmu`` and ``plant.fmu`` in a folder, couple them and return the errors of all axes.
+
+    ``progress``: called with the cycles that are done, and with all there are.
 
     Raises
     ------
@@ -71,7 +76,7 @@ def demonstrate(lists: Path, output: Path) -> Demo:
         for name, path in ((COMPENSATION, built.path), (PLANT, plant)):
             extract(path, folder / name)
         tool_length = TOOL_LENGTH if knows_tip and machine.volumetric else None
-        traces = _simulate(folder, machine, simulations, tool_length)
+        traces = _simulate(folder, machine, simulations, tool_length, progress)
     pairs = [(traces[without], traces[compensated]) for without, compensated in of_trial]
     return Demo(machine, tuple(outcomes(machine, trials, pairs)), note)
 
@@ -113,7 +118,7 @@ def _disabled(machine: Machine, kinds: Sequence[str]) -> tuple[str, ...]:
 
 
 def _simulate(
-    folder: Path, machine: Machine, simulations: Sequence[Simulation], tool_length: float | None
+    folder: Path, machine: Machine, simulations: Sequence[Simulation], tool_length: float | None, progress: Progress
 ) -> list[Trace]:
     """Share the simulations out to processes, each of which loads both FMUs; return the traces in their order."""
     shares: list[list[int]] = [[] for _ in range(min(PROCESSES, os.cpu_count() or 1, len(simulations)))]
@@ -137,7 +142,12 @@ def _simulate(
     traces: dict[int, Trace] = {}
     try:
         for number, (child, share) in enumerate(zip(children, shares, strict=True)):
-            child.wait()
+            while True:
+                try:
+                    child.wait(POLL)
+                    break
+                except subprocess.TimeoutExpired:
+                    progress(sum(map(_done, folder.glob(f"batch*/{DONE}"))), sum(load))
             for index, recorded in zip(share, _results(folder / f"batch{number}"), strict=True):
                 traces[index] = Trace.of(axes, recorded)
     finally:
@@ -145,6 +155,11 @@ def _simulate(
             child.kill()
             child.wait()
     return [traces[index] for index in range(len(simulations))]
+
+
+def _done(file: Path) -> int:
+    """Return how many cycles a process has run, by what it has noted whole."""
+    return sum(int(line) for line in file.read_text(encoding="ascii").split("\n")[:-1])
 
 
 def _results(folder: Path) -> list[Array]:
