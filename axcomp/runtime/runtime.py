@@ -72,17 +72,21 @@ class Runtime:
         self.tables, self.pool = compile_tables(machine, cycle_time)
         self._identity: int | None = None
         self._volumetrics = {volumetric.index for volumetric in machine.volumetric}
-        self.inputs = initial_inputs(self.tables)
-        self.state = zero(State)
-        self.outputs = zero(Outputs)
-        del self.state.axis[self.tables.axis_count :]
-        del self.state.motion.axis[self.tables.axis_count :]
-        del self.outputs.axis[self.tables.axis_count :]
-        del self.state.volumetric[self.tables.volumetrics :]
-        del self.outputs.volumetric[self.tables.volumetrics :]
+        self.state, self.inputs, self.outputs = self._records()
+        set_initial_inputs(self.tables, self.inputs)
         self.start_time = 0.0
         self.cycles = 0
         self._told: set[str] = set()
+        self._tellable: tuple[Machine, list[tuple[int, int, str]]] | None = None
+
+    def _records(self) -> tuple[State, Inputs, Outputs]:
+        """Return records for a machine of this size."""
+        state, inputs, outputs = zero(State), zero(Inputs), zero(Outputs)
+        for axes in (state.axis, state.motion.axis, inputs.axis, outputs.axis):
+            del axes[self.tables.axis_count :]
+        for volumetrics in (state.volumetric, inputs.volumetric, outputs.volumetric):
+            del volumetrics[self.tables.volumetrics :]
+        return state, inputs, outputs
 
     def begin(self, time: float = 0.0) -> None:
         """Set the clock and compute the outputs of the first cycle without running it (end of initialization)."""
@@ -125,12 +129,14 @@ class Runtime:
 
     def notices(self) -> Iterator[str]:
         """Yield, once each, what the machine's user should know about the motion so far."""
-        for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
-            for kind in kinds_of(axis):
-                notice = f"axis {axis.name}: {kind.notice}"
-                if has_notice(kind.number, state.compensation) and notice not in self._told:
-                    self._told.add(notice)
-                    yield notice
+        if not self._tellable or self._tellable[0] is not self.machine:
+            found = [(i, axis, kind) for i, axis in enumerate(self.machine.axes) for kind in kinds_of(axis)]
+            texts = [(i, kind.number, f"axis {axis.name}: {kind.notice}") for i, axis, kind in found if kind.notice]
+            self._tellable = self.machine, texts
+        for index, number, notice in self._tellable[1]:
+            if notice not in self._told and has_notice(number, self.state.axis[index].compensation):
+                self._told.add(notice)
+                yield notice
 
     def update(self, machine: Machine) -> dict[str, int]:
         """Take new lists while the machine runs.
