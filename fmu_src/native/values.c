@@ -10,31 +10,77 @@ enum {
     WITH_VALUES = INITIALIZATION | STEPPING | TERMINATED
 };
 
-/* Where the value of a reference is, and of what kind; NULL after telling the host that there is none. */
-static void *place_of(Instance *instance, fmi2ValueReference reference, char type, const Place **place)
+/* Where the variables of a block of value references are. */
+typedef struct {
+    unsigned block;
+    const Place *places;
+    char *results;  /* what its outputs are in */
+    char *given;    /* and the rest */
+} Spot;
+
+static Spot spot_of(Instance *instance, unsigned block)
 {
+    static const Place NONE[PLACES] = {{0, 0, 0}};
     Memory *memory = &instance->memory;
-    unsigned block = reference / PLACES;
-    void *record = NULL;
-    *place = NULL;
+    Spot spot = {block, NONE, (char *)memory, (char *)memory};
+    unsigned axis = block - AXIS_BLOCK;
+    unsigned volumetric = block - VOLUMETRIC_BLOCK;
     if (block == MACHINE_BLOCK) {
-        *place = &axcomp_machine_places[reference % PLACES];
-        record = memory;
-    } else if (block >= AXIS_BLOCK && block < AXIS_BLOCK + (unsigned)instance->lists->tables.axis_count) {
-        *place = &axcomp_axis_places[reference % PLACES];
-        record = (*place)->causality == 'o' ? (void *)&memory->outputs.axis[block - AXIS_BLOCK]
-                                            : (void *)&memory->inputs.axis[block - AXIS_BLOCK];
-    } else if (block >= VOLUMETRIC_BLOCK && block < VOLUMETRIC_BLOCK + (unsigned)instance->lists->tables.volumetrics) {
-        *place = &axcomp_volumetric_places[reference % PLACES];
-        record = (*place)->causality == 'o' ? (void *)&memory->outputs.volumetric[block - VOLUMETRIC_BLOCK]
-                                            : (void *)&memory->inputs.volumetric[block - VOLUMETRIC_BLOCK];
+        spot.places = axcomp_machine_places;
+    } else if (axis < (unsigned)instance->lists->tables.axis_count) {
+        spot.places = axcomp_axis_places;
+        spot.results = (char *)&memory->outputs.axis[axis];
+        spot.given = (char *)&memory->inputs.axis[axis];
+    } else if (volumetric < (unsigned)instance->lists->tables.volumetrics) {
+        spot.places = axcomp_volumetric_places;
+        spot.results = (char *)&memory->outputs.volumetric[volumetric];
+        spot.given = (char *)&memory->inputs.volumetric[volumetric];
     }
-    if (record == NULL || (*place)->type != type) {
-        axcomp_say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
-        return NULL;
-    }
-    return (char *)record + (*place)->offset;
+    return spot;
 }
+
+static fmi2Status say_unknown(const Instance *instance, fmi2ValueReference reference)
+{
+    return axcomp_say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
+}
+
+/* Whether a variable that is no input may be set now; if not, the host is told. */
+static bool may_set(const Instance *instance, const Place *place, fmi2ValueReference reference)
+{
+    bool fixed = place->causality == 'p' && instance->memory.phase == STEPPING;
+    if (place->causality == 'o' || fixed) {
+        axcomp_say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
+        return false;
+    }
+    return true;
+}
+
+/* Do something with each `value` of a type, at `place`; hosts name the variables of a block one after the other. */
+#define FOR_EACH(LETTER, Type, DO)                                                                                   \
+    for (size_t i = 0; i < count;) {                                                                                 \
+        const Spot spot = spot_of(instance, references[i] / PLACES);                                                 \
+        do {                                                                                                         \
+            const Place *place = &spot.places[references[i] % PLACES];                                               \
+            if (place->type != (LETTER)) {                                                                           \
+                return say_unknown(instance, references[i]);                                                         \
+            }                                                                                                        \
+            Type *value = (Type *)((place->causality == 'o' ? spot.results : spot.given) + place->offset);           \
+            DO                                                                                                       \
+            i++;                                                                                                     \
+        } while (i < count && references[i] / PLACES == spot.block);                                                 \
+    }
+
+#define GETTER(NAME, FmiType, LETTER, Type, VALUE)                                                                   \
+    FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component, const fmi2ValueReference references[],           \
+                                           size_t count, FmiType values[])                                           \
+    {                                                                                                                \
+        Instance *instance = readable(component, references, values, count);                                         \
+        if (instance == NULL) {                                                                                      \
+            return fmi2Error;                                                                                        \
+        }                                                                                                            \
+        FOR_EACH(LETTER, const Type, values[i] = VALUE;)                                                             \
+        return fmi2OK;                                                                                               \
+    }
 
 /* The instance, if values may be read now; during initialization the outputs are computed first. */
 static Instance *readable(fmi2Component component, const void *references, const void *values, size_t count)
@@ -49,98 +95,16 @@ static Instance *readable(fmi2Component component, const void *references, const
     return instance;
 }
 
-/* Where a value is to be set; NULL after telling the host that it must not be. */
-static void *settable(Instance *instance, fmi2ValueReference reference, char type, const Place **place)
-{
-    void *value = place_of(instance, reference, type, place);
-    if (value == NULL) {
-        return NULL;
-    }
-    bool fixed = (*place)->causality == 'p' && instance->memory.phase == STEPPING;
-    if ((*place)->causality == 'o' || fixed) {
-        axcomp_say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
-        return NULL;
-    }
-    return value;
-}
-
 static Instance *writable(fmi2Component component, const void *references, const void *values, size_t count)
 {
     Instance *instance = axcomp_allowed(component, WITH_INPUTS, "fmi2Set...");
     return count == 0 ? instance : axcomp_given(axcomp_given(instance, references, "fmi2Set..."), values, "fmi2Set...");
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component component, const fmi2ValueReference references[],
-                                              size_t count, fmi2Real values[])
-{
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const double *value = (const double *)place_of(instance, references[i], 'r', &place);
-        if (value == NULL) {
-            return fmi2Error;
-        }
-        values[i] = *value;
-    }
-    return fmi2OK;
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component component, const fmi2ValueReference references[],
-                                                 size_t count, fmi2Integer values[])
-{
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const int32_t *value = (const int32_t *)place_of(instance, references[i], 'i', &place);
-        if (value == NULL) {
-            return fmi2Error;
-        }
-        values[i] = *value;
-    }
-    return fmi2OK;
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component component, const fmi2ValueReference references[],
-                                                 size_t count, fmi2Boolean values[])
-{
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const bool *value = (const bool *)place_of(instance, references[i], 'b', &place);
-        if (value == NULL) {
-            return fmi2Error;
-        }
-        values[i] = *value ? fmi2True : fmi2False;
-    }
-    return fmi2OK;
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetString)(fmi2Component component, const fmi2ValueReference references[],
-                                                size_t count, fmi2String values[])
-{
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const char *value = (const char *)place_of(instance, references[i], 's', &place);
-        if (value == NULL) {
-            return fmi2Error;
-        }
-        values[i] = value;
-    }
-    return fmi2OK;
-}
+GETTER(fmi2GetReal, fmi2Real, 'r', double, *value)
+GETTER(fmi2GetInteger, fmi2Integer, 'i', int32_t, *value)
+GETTER(fmi2GetBoolean, fmi2Boolean, 'b', bool, *value ? fmi2True : fmi2False)
+GETTER(fmi2GetString, fmi2String, 's', char, value)
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi2ValueReference references[],
                                               size_t count, const fmi2Real values[])
@@ -149,17 +113,15 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi
     if (instance == NULL) {
         return fmi2Error;
     }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        double *value = (double *)settable(instance, references[i], 'r', &place);
-        if (value == NULL) {
+    FOR_EACH('r', double, {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
             return fmi2Error;
         }
         if (place->causality == 'p' && !axcomp_cycle_time_fits(values[i])) {
             return axcomp_say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
         }
         *value = values[i];
-    }
+    })
     return fmi2OK;
 }
 
@@ -170,14 +132,24 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component component, const 
     if (instance == NULL) {
         return fmi2Error;
     }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        int32_t *value = (int32_t *)settable(instance, references[i], 'i', &place);
-        if (value == NULL) {
+    FOR_EACH('i', int32_t, {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
             return fmi2Error;
         }
         *value = values[i];
-    }
+    })
+    return fmi2OK;
+}
+
+static fmi2Status set_booleans(Instance *instance, const fmi2ValueReference references[], size_t count,
+                               const fmi2Boolean values[])
+{
+    FOR_EACH('b', bool, {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
+            return fmi2Error;
+        }
+        *value = values[i] != fmi2False;
+    })
     return fmi2OK;
 }
 
@@ -188,16 +160,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component component, const 
     if (instance == NULL) {
         return fmi2Error;
     }
-    fmi2Status status = fmi2OK;
-    const Place *place;
-    for (size_t i = 0; i < count && status == fmi2OK; i++) {
-        bool *value = (bool *)settable(instance, references[i], 'b', &place);
-        if (value != NULL) {
-            *value = values[i] != fmi2False;
-        } else {
-            status = fmi2Error;
-        }
-    }
+    fmi2Status status = set_booleans(instance, references, count, values);
     axcomp_watch_reload(instance, false);
     return status;
 }
@@ -209,17 +172,15 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const f
     if (instance == NULL) {
         return fmi2Error;
     }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        char *value = (char *)settable(instance, references[i], 's', &place);
-        if (value == NULL) {
+    FOR_EACH('s', char, {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
             return fmi2Error;
         }
         if (values[i] == NULL || strlen(values[i]) + 1 > PATH_LENGTH) {
             return axcomp_say(instance, fmi2Error, "a string is missing, or has more than %d bytes", PATH_LENGTH - 1);
         }
         memmove(value, values[i], strlen(values[i]) + 1);
-    }
+    })
     axcomp_watch_reload(instance, true);
     return fmi2OK;
 }
