@@ -346,7 +346,9 @@ def _length(columns: Mapping[str, ArrayLike]) -> int:
 def _blocks(column: ArrayLike) -> dict[int, str]:
     """Return the rows with NC commands."""
     blocks = column if isinstance(column, list | tuple) else np.asarray(column).tolist()
-    return {row: str(block) for row, block in enumerate(blocks) if block and str(block).strip()}
+    found = [(row, str(block)) for row, block in enumerate(blocks) if block]
+    blank = {block for block in {block for _, block in found} if not block.strip()}
+    return {row: block for row, block in found if block not in blank}
 
 
 class _Row:
