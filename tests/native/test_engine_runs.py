@@ -77,6 +77,8 @@ def test_commands_steps_snapshots_and_updates_are_the_same_in_both(machine: Mach
     engines = Engine(machine), plain_engine(machine)
     source = default_rng(seed)
     columns = trajectory(engines[0], source, 200)
+    # What commands switch is held until the next one.
+    columns = {name: column for name, column in columns.items() if not name.endswith((".enable", ".no_move"))}
     named = [axis.name for axis in machine.axes if re.fullmatch("[A-Za-z]+", axis.name)]
     switches = [f"{name}[COMP {way}]" for name in named for way in ("OFF_ALL", "ON", "OFF_ALL NO_MOVE")]
     ids = [volumetric.index for volumetric in machine.volumetric]
