@@ -99,6 +99,7 @@ class Engine:
         self._bound: object = None
         self._said: set[str] = set()
         self._outputs = with_causality(self.variables, "output")
+        self._units = {v.name: v.unit for v in self._outputs if v.unit}
         self._complete: set[frozenset[str]] = set()
         self._rows: dict[tuple[str, ...], Row] = {}
         self._fields: dict[tuple[str, ...], Fields] = {}
@@ -212,8 +213,7 @@ class Engine:
         else:
             values, told = self._run_in_python(given, columns, blocks, cycles)
         named = {variable.name: column for variable, column in zip(self._outputs, values, strict=True)}
-        units = {v.name: v.unit for v in self._outputs if v.unit}
-        return Result(time, named, (*notices, *told, *self.runtime.notices()), units)
+        return Result(time, named, (*notices, *told, *self.runtime.notices()), self._units)
 
     @property
     def modulo(self) -> dict[str, float]:
@@ -240,7 +240,7 @@ class Engine:
         time = np.array([self.time])
         row = self._row_of(runtime, given)
         row.step(runtime, given)
-        return Result(time, row.columns(), (*self._unsaid(said), *runtime.notices()))
+        return Result(time, row.columns(), (*self._unsaid(said), *runtime.notices()), self._units)
 
     def _unsaid(self, said: Sequence[str]) -> list[str]:
         """Return what has not been said before."""
