@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import platform
+import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -16,6 +17,9 @@ from ..fmu import BuildError
 from ..lists import read_machine
 from ..model import models
 from ..native import CompilerError
+
+WIDTH = 130
+"""Columns that a name and its figures need in one line."""
 
 EXAMPLE = """example:
   axcomp bench --quick
@@ -70,4 +74,6 @@ def _samples(quick: bool) -> Iterator[Sample]:
 
 def _line(one: Sample) -> str:
     goal = "" if one.goal is None else f"   at {'least' if one.unit == '×' else 'most'} {one.goal:g} {one.unit}"
-    return f"{one.name:66} {one.median:9.3f} {one.unit:2} ({one.low:.3f} … {one.high:.3f}){goal}"
+    figures = f"{one.median:9.3f} {one.unit:2} ({one.low:.3f} … {one.high:.3f}){goal}"
+    wide = shutil.get_terminal_size((160, 25)).columns >= WIDTH
+    return f"{one.name:66} {figures}" if wide else f"{one.name}\n    {figures}"

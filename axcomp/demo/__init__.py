@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from .evaluation import Outcome as Outcome, Trace as Trace, label as label, outcomes as outcomes, table as table
     from .picture import draw as draw
     from .run import BuildError as BuildError, Demo as Demo, DemoError as DemoError, demonstrate as demonstrate
+    from .system import write_ssp as write_ssp
     from .trials import (
         TCP as TCP,
         VOLUMETRIC as VOLUMETRIC,
@@ -23,5 +24,6 @@ else:
         evaluation="Outcome Trace label outcomes table",
         picture="draw",
         run="BuildError Demo DemoError demonstrate",
+        system="write_ssp",
         trials="TCP Trial VOLUMETRIC trials_of volumetric_trials",
     )

@@ -6,21 +6,20 @@ import ctypes
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..interface import Naming, Slot, Value, Variable, by_name, identifier, slot_of, variables_of, whole, with_causality
-from ..lists import Finding, TypeName, read_machine
+from ..lists import Finding, ListError, TypeName, read_machine
 from ..model import CYCLE_TIME, Machine
 from ..native import CompiledTables, compiled_kernel, run_compiled
 from ..runtime import Runtime
 from .completion import completed
 from .nc_control import NcControl
 from .nc_scanner import NcError
+from .result import Result
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -32,40 +31,6 @@ COMMAND = "command"
 
 CHUNK = 4096
 """Cycles whose outputs are kept as Python objects before they go into arrays."""
-
-
-@dataclass(frozen=True)
-class Result:
-    """Outputs over a trajectory: float, int or bool by name, shape (n,), and the instants of the cycles, s.
-
-    ``notices``: what the run has to say, a sentence each.
-    """
-
-    time: NDArray[np.float64]
-    values: Mapping[str, NDArray[Any]]
-    notices: tuple[str, ...] = ()
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """Return the values of one variable, shape (n,)."""
-        return self.values[name]
-
-    def __len__(self) -> int:
-        """Return the number of cycles."""
-        return len(self.time)
-
-    def __repr__(self) -> str:
-        return f"Result({len(self)} cycles of {len(self.values)} variables)"
-
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write time and all variables as CSV that reads back to the same bits."""
-        Path(path).write_text("".join(f"{line}\n" for line in self.csv_lines()), encoding="utf-8")
-
-    def csv_lines(self) -> Iterator[str]:
-        """Yield the lines that ``to_csv`` writes."""
-        columns = [self.time.tolist(), *(column.tolist() for column in self.values.values())]
-        yield ",".join(["time", *self.values])
-        for row in zip(*columns, strict=True):
-            yield ",".join(repr(float(value)) for value in row)
 
 
 class Engine:
@@ -94,8 +59,20 @@ class Engine:
 
     Raises
     ------
+    ListError
+        If there is no axis at a path; ``findings`` say why.
     CompileError
         If a Machine made by hand cannot be run.
+
+    Examples
+    --------
+    >>> from axcomp import Engine, models
+    >>> engine = Engine(models() / "rotary_table", cycle_time=0.002)
+    >>> engine
+    Engine(C: leadscrew, friction; cycle 0.002 s, at 0 s)
+    >>> result = engine.run({"C.setpoint": [0.0, 90.0]})
+    >>> result["C.correction"].shape, result.units["C.correction"]
+    ((2,), 'deg')
     """
 
     def __init__(
@@ -111,6 +88,9 @@ class Engine:
             lists = machine
             reading = read_machine(machine, axis_type=axis_type)
             machine, self.findings = reading.machine, tuple(reading.findings)
+            if not machine.axes:
+                raise ListError(self.findings)
+        self._arguments = machine, cycle_time, naming
         self.machine = machine
         self.runtime = Runtime(machine, cycle_time)
         self._compiled: CompiledTables | None = None
@@ -122,13 +102,42 @@ class Engine:
         self._said: set[str] = set()
         self._outputs = with_causality(self.variables, "output")
 
+    def __repr__(self) -> str:
+        named = [f"{one.name}: {', '.join(one.kinds) or 'no compensation'}" for one in self.machine.axes]
+        named += [
+            f"volumetric[{one.index}]: {', '.join(letter for letter, _ in one.axes)}" for one in self.machine.volumetric
+        ]
+        return f"Engine({'; '.join(named)}; cycle {self.runtime.tables.cycle_time:g} s, at {self.time:g} s)"
+
+    def _repr_html_(self) -> str:
+        """Return what it holds as a table, for notebooks."""
+        inputs, outputs = (len(with_causality(self.variables, which)) for which in ("input", "output"))
+        cycle_time = f"cycle {self.runtime.tables.cycle_time:g} s, at {self.time:g} s"
+        return f"<p>Engine: {inputs} inputs, {outputs} outputs, {cycle_time}</p>{self.machine._repr_html_()}"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what an engine is made again from, by pickle and copy: it goes on where this one stands."""
+        return {
+            "arguments": self._arguments,
+            "findings": self.findings,
+            "said": set(self._said),
+            "runtime": self.runtime.keep(),
+            "nc": self.nc.keep(),
+        }
+
+    def __setstate__(self, kept: Mapping[str, Any]) -> None:
+        self.__init__(*kept["arguments"])  # type: ignore[misc]  # it is made anew
+        self.findings, self._said = kept["findings"], set(kept["said"])
+        self.runtime.take(kept["runtime"])
+        self.nc.take(kept["nc"])
+
     @property
     def time(self) -> float:
         """Instant of the next cycle, s."""
         return self.runtime.start_time + self.runtime.cycles * self.runtime.tables.cycle_time
 
     def set(self, values: Mapping[str, Value]) -> None:
-        """Set inputs by name; they are held until set again. KeyError with the known names for an unknown one."""
+        """Set inputs ``values`` by name, held until set again; KeyError, with the known names, for an unknown one."""
         for name, value in values.items():
             variable = self._input(name)
             self._slot_of(variable).set(
@@ -140,7 +149,7 @@ class Engine:
         return {variable.name: self._slot_of(variable).get() for variable in self._outputs}
 
     def step(self, values: Mapping[str, Value] | None = None, command: str = "") -> dict[str, Value]:
-        """Set inputs, carry out an NC command, run one cycle, and return its outputs by name.
+        """Set inputs ``values``, carry out an NC ``command``, run one cycle, and return its outputs by name.
 
         NcError for a command that cannot be carried out.
         """
@@ -204,7 +213,9 @@ class Engine:
         values = pieces[0]
         if len(pieces) > 1:
             values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
-        return Result(time, values, (*notices, *self.runtime.notices()))
+        return Result(
+            time, values, (*notices, *self.runtime.notices()), {v.name: v.unit for v in self._outputs if v.unit}
+        )
 
     @property
     def modulo(self) -> dict[str, float]:

@@ -85,6 +85,15 @@ class NcControl:
                 setattr(record, field, before)
         self._held.clear()
 
+    def keep(self) -> tuple[Any, ...]:
+        """Return where it reads and what was written, for ``take``."""
+        return self._lists, dict(self._files)
+
+    def take(self, kept: tuple[Any, ...]) -> None:
+        """Go on where another one stood."""
+        self._lists, files = kept
+        self._files = dict(files)
+
     def read(self, name: str) -> str | bool:
         """Return the value of ``V.G.VOLCOMP[i].FILE[j]``, ``.ACTIVE`` or ``V.A.CROSS_COMP_ACTIVE.X`` and the like.
 

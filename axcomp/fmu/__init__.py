@@ -15,8 +15,14 @@ if TYPE_CHECKING:
         generation_date as generation_date,
         write_fmu as write_fmu,
     )
-    from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built
-    from .description import Description as Description, model_description as model_description
+    from .bill import BILL as BILL, bill_of_archive as bill_of_archive
+    from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built, Version as Version
+    from .description import (
+        Description as Description,
+        add_units as add_units,
+        document as document,
+        model_description as model_description,
+    )
     from .documentation import accompanying as accompanying
     from .instance import Instance as Instance
     from .native_package import (
@@ -34,8 +40,9 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         archive="BuildError content_guid file_bytes generation_date write_fmu",
-        content="Built NAME PACKAGE",
-        description="Description model_description",
+        bill="BILL bill_of_archive",
+        content="Built NAME PACKAGE Version",
+        description="Description add_units document model_description",
         documentation="accompanying",
         instance="Instance",
         embedded="HEADERS SOURCES",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .arrays import TABLE_BLOCK, TIME_REFERENCE, ArrayVariable, arrays_of, every_array
 from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -28,8 +29,11 @@ __all__ = [
     "OF_VOLUMETRIC",
     "PAGE",
     "README",
+    "TABLE_BLOCK",
+    "TIME_REFERENCE",
     "TYPE_NAMES",
     "VOLUMETRIC_BLOCK",
+    "ArrayVariable",
     "Controls",
     "Declaration",
     "Naming",
@@ -37,7 +41,9 @@ __all__ = [
     "Types",
     "Value",
     "Variable",
+    "arrays_of",
     "by_name",
+    "every_array",
     "every_slot",
     "identifier",
     "readme_with_section",

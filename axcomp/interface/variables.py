@@ -54,10 +54,10 @@ def variables_of(
     cycle_time : float
         Start value of the parameter of that name, s.
     types : str
-        ``own``, or ``real``: Booleans and Integers are Real, for importers that take everything as Real.
+        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, for importers that take all as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
-    every_axis = list(enumerate(zip(machine.axes, _prefixes(machine, naming), strict=True)))
+    every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))
     of_machine = [d for d in OF_MACHINE if d.kind != VOLUMETRIC or machine.volumetric]
     inputs: dict[Input, str] = {(None, d.name): d.name for d in of_machine if d.causality == "input"}
     inputs.update(
@@ -91,7 +91,7 @@ def variables_of(
     for one in machine.volumetric:
         variables += _of_volumetric(machine, one, inputs, naming)
     if types == "real":
-        variables = [v if isinstance(v.start, str) else _as_real(v) for v in variables]
+        variables = [_as_real(v) for v in variables if not isinstance(v.start, str)]
     return tuple(variables)
 
 
@@ -200,7 +200,7 @@ def _name(prefix: str, declaration: Declaration, naming: Naming) -> str:
     return f"{prefix}.{declaration.name}" if naming == "structured" else f"{prefix}_{declaration.flat}"
 
 
-def _prefixes(machine: Machine, naming: Naming) -> list[str]:
+def prefixes_of(machine: Machine, naming: Naming) -> list[str]:
     """Return the axes' names as identifiers, so that no two variables get the same name."""
     prefixes: list[str] = []
     taken = {declaration.name for declaration in OF_MACHINE}

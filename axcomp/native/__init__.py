@@ -35,6 +35,8 @@ if TYPE_CHECKING:
         LIBRARY_HEADERS as LIBRARY_HEADERS,
         LIBRARY_SOURCES as LIBRARY_SOURCES,
         SOURCES as SOURCES,
+        THIRD_HEADERS as THIRD_HEADERS,
+        THIRD_SOURCES as THIRD_SOURCES,
         source_bytes as source_bytes,
         source_path as source_path,
     )
@@ -50,5 +52,5 @@ else:
         prebuilt="WASM prebuilt_path why_not_prebuilt",
         records="records_source",
         runner="CompiledTables run_compiled",
-        sources="HEADERS LIBRARY_HEADERS LIBRARY_SOURCES SOURCES source_bytes source_path",
+        sources="HEADERS LIBRARY_HEADERS LIBRARY_SOURCES SOURCES THIRD_HEADERS THIRD_SOURCES source_bytes source_path",
     )

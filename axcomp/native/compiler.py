@@ -25,20 +25,24 @@ SSE = ("-msse2", "-mfpmath=sse")
 
 
 class Platform(NamedTuple):
-    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machines in one."""
+    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machines in one.
+
+    ``third``: the folders of its library in FMI 3.0 (section 2.5.1.4).
+    """
 
     suffix: str
     zig_targets: tuple[str, ...]
+    third: tuple[str, ...]
     flags: tuple[str, ...] = ()
 
 
 PLATFORMS = {
-    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",)),
-    "win64": Platform(".dll", ("x86_64-windows-gnu",)),
-    "darwin64": Platform(".dylib", ("x86_64-macos.11.0", "aarch64-macos.11.0")),
-    "aarch64-linux": Platform(".so", ("aarch64-linux-gnu.2.17",)),
-    "linux32": Platform(".so", ("x86-linux-gnu.2.17",), SSE),
-    "win32": Platform(".dll", ("x86-windows-gnu",), SSE),
+    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",), ("x86_64-linux",)),
+    "win64": Platform(".dll", ("x86_64-windows-gnu",), ("x86_64-windows",)),
+    "darwin64": Platform(".dylib", ("x86_64-macos.11.0", "aarch64-macos.11.0"), ("x86_64-darwin", "aarch64-darwin")),
+    "aarch64-linux": Platform(".so", ("aarch64-linux-gnu.2.17",), ("aarch64-linux",)),
+    "linux32": Platform(".so", ("x86-linux-gnu.2.17",), ("x86-linux",), SSE),
+    "win32": Platform(".dll", ("x86-windows-gnu",), ("x86-windows",), SSE),
 }
 """Those that FMUs are built for; the Linux libraries need glibc 2.17 or newer."""
 

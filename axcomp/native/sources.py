@@ -13,9 +13,14 @@ SOURCES = tuple(f"{part}.c" for part in (*_COMMON, "embedded"))
 HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h")
 """Of an FMU, in ``fmu_src/native``; its tables are among its sources, and ``config.h`` is another one there."""
 
-LIBRARY_SOURCES = tuple(f"{part}.c" for part in (*_COMMON, *_HOSTED))
-LIBRARY_HEADERS = (*HEADERS, "config.h", "lists.h", "records.h", "resource.h", "run.h")
-"""Of the libraries, which read images; the Engine runs its trajectories in them too."""
+_THIRD = ("fmi3", "refused3", "tuning", "values3")
+THIRD_SOURCES = tuple(f"{part}.c" for part in _THIRD)
+THIRD_HEADERS = ("fmi3.h", "tuning.h")
+"""What FMI 3.0 needs besides; it goes on to the functions of FMI 2.0."""
+
+LIBRARY_SOURCES = tuple(f"{part}.c" for part in (*_COMMON, *_THIRD, *_HOSTED))
+LIBRARY_HEADERS = (*HEADERS, *THIRD_HEADERS, "config.h", "lists.h", "records.h", "resource.h", "run.h")
+"""Of the libraries, which speak FMI 2.0 and 3.0 and read images; the Engine runs its trajectories in them too."""
 
 WASM_SOURCES = tuple(f"{part}.c" for part in ("image", "kernel", "memory", "places", "records", "wasm"))
 """Of the kernel in WebAssembly, with the same headers."""

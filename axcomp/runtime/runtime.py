@@ -9,6 +9,7 @@ import copy
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from ..kernel import (
     ERROR_SWITCH,
@@ -119,6 +120,16 @@ class Runtime:
         unpack(data, self._machine_identity(), self.state, self.inputs, self.outputs, clock)
         self.start_time = clock[0]
         self.cycles = int(clock[1])
+
+    def keep(self) -> tuple[Any, ...]:
+        """Return everything that changes, new lists too, for ``take`` of a runtime made as this one was; it pickles."""
+        return self.machine, self.tables, self.pool, set(self._told), self.save()
+
+    def take(self, kept: tuple[Any, ...]) -> None:
+        """Go on where another runtime stood."""
+        self.machine, tables, pool, told, snapshot = kept
+        self.tables, self.pool, self._told, self._identity = copy.deepcopy(tables), copy.copy(pool), set(told), None
+        self.restore(snapshot)
 
     def _machine_identity(self) -> int:
         if self._identity is None:

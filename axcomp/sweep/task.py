@@ -119,7 +119,7 @@ def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
     engine = Engine(machine, cycle_time)
     inputs = {variable.name for variable in engine.variables if variable.causality == "input"}
     given = _given(run, columns, inputs, cycle_time, engine.modulo)
-    return {**given, **engine.run(given).values}, cycle_time, findings
+    return {**given, **engine.run(given).columns}, cycle_time, findings
 
 
 def _given(run: Run, columns: Columns, known: set[str], cycle_time: float, modulo: Mapping[str, float]) -> Columns:

@@ -28,6 +28,8 @@ typedef struct Lists {
     uint32_t identity;      /* equal for equal tables */
     char guid[GUID_LENGTH]; /* of the modelDescription.xml that belongs to them */
     bool real_only;         /* it calls Booleans and Integers Real */
+    bool tuned;             /* the host has changed numbers in them */
+    bool saved;             /* of such ones: a state refers to them */
 #if !defined(AXCOMP_EMBEDDED)
     uint32_t found;         /* errors in the lists these were made from: `reload` refuses them then */
     char said[SAID_LENGTH]; /* the first of them */

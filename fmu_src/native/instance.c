@@ -63,6 +63,21 @@ void axcomp_preview_outputs(Instance *instance)
     axcomp_cycle(&instance->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
 }
 
+bool axcomp_cycle_begins(const Instance *instance)
+{
+    const Memory *memory = &instance->memory;
+    double since = memory->time - memory->start_time, cycle_time = instance->tables.cycle_time;
+    return memory->cycles * cycle_time - since <= AXCOMP_ON_INSTANT * cycle_time;
+}
+
+void axcomp_refresh_outputs(Instance *instance)
+{
+    if (instance->stale && axcomp_cycle_begins(instance)) {
+        axcomp_preview_outputs(instance);
+    }
+    instance->stale = false;
+}
+
 /* Tell, once for an axis and a kind, that a compensation is used beyond its table, and of switches that are none. */
 static void give_notices(Instance *instance)
 {

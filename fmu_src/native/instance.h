@@ -18,8 +18,9 @@ enum { PATH_LENGTH = 256 };  /* a path is of no use here: there are no files */
 extern "C" {
 #endif
 
-/* Where the instance is in the state machine of FMI 2.0 (section 4.2.4); bits, so that calls can name several. */
-typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 8 } Phase;
+/* Where the instance is in the state machine of FMI 2.0 (section 4.2.4), or 3.0, which has event mode too; bits, so that
+ * calls can name several. */
+typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 8, EVENT = 16 } Phase;
 
 /* The variables that the kernel does not know. */
 typedef struct {
@@ -56,6 +57,9 @@ typedef struct {
     State preview;        /* of the cycle that is computed during initialization, without being run */
     uint32_t told[KINDS + 1]; /* bit i: that a kind of axis i was used beyond its table; the last: a switch was none */
     void *block;          /* the arrays of `memory`, `begin` and `preview` */
+    void (*log)(void);    /* fmi3LogMessageCallback of a host that speaks FMI 3.0, else NULL */
+    bool event_mode;      /* such a host uses event mode */
+    bool stale;           /* in event mode: the outputs do not belong to the inputs yet */
 #if !defined(AXCOMP_EMBEDDED)
     Lists *own;           /* all that were read by `reload`: a saved state may come back to them */
     Lists *waiting;       /* of these: for the next step; NULL: none */
@@ -75,8 +79,12 @@ fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *f
 /* What the host wants to be told from now on; `categories`: bit k: category k of axcomp_log_categories. */
 void axcomp_log_as_wanted(Instance *instance, bool on, unsigned categories);
 
+
 /* Make an instance that has neither tables nor arrays yet; NULL: there is no memory. */
 Instance *axcomp_new_instance(const char *name);
+
+/* Give a new instance its tables and put it at its begin. Returns it, or NULL after telling the host why it is freed. */
+Instance *axcomp_begin_instance(Instance *instance, const char *name, const char *guid, const char *location);
 
 /* Give the instance arrays as large as its shape. Returns whether there is memory. */
 bool axcomp_give_arrays(Instance *instance);
@@ -87,6 +95,12 @@ size_t axcomp_block_size(const Shape *shape);
 
 /* Free everything. */
 void axcomp_free_instance(Instance *instance);
+
+/* A copy of the lists in force, to be changed, which the instance owns; NULL: there is no memory. */
+Lists *axcomp_copy_lists(Instance *instance);
+
+/* Give up the last copy, which never came into force. */
+void axcomp_drop_lists(Instance *instance, Lists *copy);
 
 /* Memory for a saved state, all 0; NULL: there is none. */
 void *axcomp_new_state(size_t size);
@@ -117,6 +131,12 @@ void axcomp_use_lists(Instance *instance, const Lists *lists);
 
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);
+
+/* Whether a cycle begins where the last step ended. */
+bool axcomp_cycle_begins(const Instance *instance);
+
+/* In event mode: compute the outputs that belong to the inputs of this instant, if it is one of a cycle. */
+void axcomp_refresh_outputs(Instance *instance);
 
 /* Make a step from `begin` to `end`, s: run the cycles whose instants lie before its end and have not been run. */
 fmi2Status axcomp_advance(Instance *instance, double begin, double end);

@@ -9,5 +9,7 @@
 #define AXCOMP_CYCLE_TIME_MAX 1000.0  /* s; cycle times are shorter */
 
 enum { MACHINE_BLOCK = 0, AXIS_BLOCK = 1, VOLUMETRIC_BLOCK = 33 };
+/* Of FMI 3.0: the blocks of tables, and the independent variable. */
+enum { TABLE_BLOCK = 38, TIME_REFERENCE = 63 };
 
 #endif

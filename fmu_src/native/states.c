@@ -85,6 +85,9 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     saved->layout = AXCOMP_LAYOUT;
     saved->size = (uint32_t)size;
     saved->lists = instance->lists->identity;
+    if (instance->lists->tuned) {
+        ((Lists *)instance->lists)->saved = true; /* it is this instance's own */
+    }
     saved->waits = waiting != NULL;
     saved->waiting = waiting != NULL ? waiting->identity : 0;
     saved->check = 0;
@@ -139,6 +142,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
     axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
     axcomp_wait_for(instance, saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL);
+    instance->stale = true;
     return fmi2OK;
 }
 

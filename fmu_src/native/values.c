@@ -7,8 +7,8 @@
 #include "places.h"
 
 enum {
-    WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING,
-    WITH_VALUES = INITIALIZATION | STEPPING | TERMINATED
+    WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING | EVENT,
+    WITH_VALUES = INITIALIZATION | STEPPING | EVENT | TERMINATED
 };
 
 /* Where the value of a reference is, and of what kind; NULL after telling the host that there is none. */
@@ -48,6 +48,8 @@ static Instance *readable(fmi2Component component, const void *references, const
     }
     if (instance != NULL && instance->memory.phase == INITIALIZATION) {
         axcomp_preview_outputs(instance);
+    } else if (instance != NULL && instance->memory.phase == EVENT) {
+        axcomp_refresh_outputs(instance);
     }
     return instance;
 }
@@ -59,11 +61,12 @@ static void *settable(Instance *instance, fmi2ValueReference reference, char typ
     if (value == NULL) {
         return NULL;
     }
-    bool fixed = (*place)->causality == 'p' && instance->memory.phase == STEPPING;
+    bool fixed = (*place)->causality == 'p' && (instance->memory.phase & (STEPPING | EVENT)) != 0;
     if ((*place)->causality == 'o' || fixed) {
         axcomp_say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
         return NULL;
     }
+    instance->stale = true;
     return value;
 }
 

@@ -45,7 +45,7 @@ def same_bits(machine: Machine, seed: int, cycles: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("axcomp.engine.engine.compiled_kernel", lambda: None)
         second = plain.run(columns)
-    for name, values in first.values.items():
+    for name, values in first.items():
         assert values.tobytes() == second[name].tobytes(), name
     assert compiled.runtime.save() == plain.runtime.save()
 
