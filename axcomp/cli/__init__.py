@@ -45,7 +45,7 @@ EXTRA = {
     "bench": "demo",
     "measure": "measure",
     "create": "measure",
-    "fit": "demo",
+    "fit": "measure",
     "plan": "measure",
     "lsp": "lsp",
     "show": "plot",

@@ -54,7 +54,8 @@ def variables_of(
     cycle_time : float
         Start value of the parameter of that name, s.
     types : str
-        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, for importers that take all as Real.
+        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, for importers that
+        take all as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
     every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))
@@ -130,8 +131,10 @@ def slot_of(
     for record in records:
         candidate: object = record
         if axis is not None or volumetric is not None:
-            if not isinstance(record, Inputs if declared.causality == "input" else Outputs):
+            # By its name: the records of a compiled kernel are no dataclasses, but called alike.
+            if type(record).__name__ != ("Inputs" if declared.causality == "input" else "Outputs"):
                 continue
+            assert not isinstance(record, Controls)
             candidate = record.axis[axis] if axis is not None else record.volumetric[volumetric or 0]
         found = slot_in(candidate, declared.field)
         if found is not None:

@@ -80,10 +80,7 @@ class Reading:
 
     def _repr_html_(self) -> str:
         """Return machine and findings as tables, for notebooks."""
-        rows = [
-            [f"{one.file}:{one.line}", one.severity.value, one.code, one.parameter, one.message]
-            for one in self.findings
-        ]
+        rows = [[f"{f.file}:{f.line}", f.severity.value, f.code, f.parameter, f.message] for f in self.findings]
         findings = as_html(["place", "severity", "code", "parameter", "finding"], rows, "text") if rows else ""
         return f"{self.machine._repr_html_()}{findings or '<p>No findings.</p>'}"
 

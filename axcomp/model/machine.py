@@ -127,10 +127,10 @@ class Axis:
     Examples
     --------
     >>> from axcomp import Axis
-    >>> from axcomp.kinds import Temperature
-    >>> axis = Axis(1, "X", backlash_cycles=5, temperature=Temperature(coefficient=11.5e-6))
+    >>> from axcomp.kinds import Backlash
+    >>> axis = Axis(1, "X", backlash_cycles=5, backlash=Backlash(0.01))
     >>> axis.unit, axis.kinds, axis.cross
-    ('mm', ('temperature',), None)
+    ('mm', ('backlash',), None)
     """
 
     number: int

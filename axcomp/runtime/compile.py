@@ -58,9 +58,8 @@ def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Compiled
         raise CompileError(f"{len(machine.axes)} axes: at most {AXES_MAX} are possible")
     if len({axis.number for axis in machine.axes}) < len(machine.axes):
         raise CompileError("two axes have the same logical number")
-    tables, pool = zero(Tables), Vec()
-    tables.cycle_time = cycle_time
-    tables.axis_count = len(machine.axes)
+    count, pool = len(machine.axes), Vec()
+    tables = Tables(cycle_time, count, [zero(AxisTable) for _ in range(count)], 0, [])
     for index, axis in enumerate(machine.axes):
         table = tables.axis[index]
         table.first = len(pool)

@@ -113,7 +113,7 @@ def test_what_a_command_prints_fits_eighty_columns(
         ["show", "no_lists", "--output", "gone/x.png"],
         ["build", "--machine", "no_lists", "--output", "gone/x.fmu"],
         ["build", "--image", "gone/x.bin"],
-        ["run", "no_program", "--output", "gone/x.csv"],
+        ["run", "no_program", "--machine", "no_lists", "--output", "gone/x.csv"],
         ["budget", "no_lists", "--input", "none", "--plot", "gone/x.png"],
         ["measure", "none", "--plot", "gone/x.png"],
         ["report", "no_lists", "--output", "gone/x.html"],
