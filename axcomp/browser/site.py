@@ -31,7 +31,7 @@ PYODIDE = "314.0.8"
 """Version of the npm package ``pyodide`` that the page runs on."""
 PARTS = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json", "package.json")
 """Files of it that a browser loads, and the terms of its licence."""
-EXAMPLES = ("three_axis", "rotary_table", "warm_axis", "five_axis")
+EXAMPLES = ("three_axis", "rotary_table", "warm_axis", "five_axis", "manual_examples")
 CYCLES = 20_000
 """Of the proof, for each example."""
 CHUNK = 10_000
