@@ -17,8 +17,7 @@ from fmu_host import in_child
 from lxml import etree
 
 from axcomp.cli import main
-from axcomp.demo import write_ssp
-from axcomp.demo.coupling import Batch, Simulation, couple
+from axcomp.demo import Batch, Simulation, couple, write_ssp
 from axcomp.demo.examples import INPUT, read_csv
 from axcomp.engine import Engine
 from axcomp.fmu import BuildError, NoCompilerError
