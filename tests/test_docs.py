@@ -113,9 +113,10 @@ def test_the_examples_for_python_run(tmp_path: Path) -> None:
     (tmp_path / "models").symlink_to(ROOT / "models")
     page = (ROOT / "docs" / "hosts.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     build = [sys.executable, str(ROOT / "build_fmu.py")]
-    for command in (build, *([sys.executable, "-c", block] for block in blocks)):
+    third = [*build, "--machine", "models/three_axis", "--fmi", "2.0", "3.0"]
+    for command in (build, third, *([sys.executable, "-c", block] for block in blocks)):
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         result = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
         assert result.returncode == 0, result.stderr
