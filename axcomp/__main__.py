@@ -1,4 +1,5 @@
 """``python -m axcomp`` is ``axcomp``."""
+# PYTHON_ARGCOMPLETE_OK
 
 import sys
 

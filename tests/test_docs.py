@@ -111,8 +111,8 @@ def test_the_trace_on_the_page_differs_as_it_says(
 @pytest.mark.slow
 def test_the_examples_for_python_run(tmp_path: Path) -> None:
     (tmp_path / "models").symlink_to(ROOT / "models")
-    page = (ROOT / "docs" / "hosts.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    pages = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("hosts.md", "python.md")]
+    blocks = [block for page in pages for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL)]
     assert len(blocks) == 4
     build = [sys.executable, str(ROOT / "build_fmu.py")]
     third = [*build, "--machine", "models/three_axis", "--fmi", "2.0", "3.0"]

@@ -176,7 +176,7 @@ def test_a_new_format_is_converted_from_and_to(tmp_path: Path) -> None:
     failing = "import sys; from axcomp.cli import main; sys.exit(main(sys.argv[1:]) == 0)"
     wrong = ("wrong.txt", "--from", "columns", "--axis", "Y", "--to", "csv")
     checkout.run("-c", failing, "convert", *wrong)
-    assert checkout.written == ["axcomp/convert/columns.py", "axcomp/convert/formats.py"]
+    assert checkout.written == ["axcomp/conversion/columns.py", "axcomp/conversion/formats.py"]
 
 
 @pytest.mark.slow

@@ -8,10 +8,10 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.util import find_spec
-from types import ModuleType
 
 from .. import __version__
+from ..model import EXTRAS, MissingExtraError, missing, needed, sentence
+from .parser import Parser, refusal
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
@@ -31,6 +31,7 @@ COMMANDS = {
     "sweep": "run many variations of a machine",
     "budget": "what each compensation and each error contributes along a path",
     "report": "write everything about a machine on one page",
+    "page": "build the page that looks at lists in a browser",
     "replay": "compare a trace of a controller with the engine",
     "diagnose": "write all records of the volumetric compensations",
 }
@@ -40,49 +41,38 @@ That sets ``do``: a function of the options → exit status. Only the module of 
 """
 
 EXTRA = {
-    "sweep": ("dask", "pandas"),
-    "measure": ("rich",),
-    "create": ("rich",),
-    "fit": ("rich",),
-    "show": ("rich",),
-    "diagnose": ("openpyxl",),
-    "replay": ("rich",),
-    "lsp": ("pygls",),
+    "demo": "demo",
+    "bench": "demo",
+    "measure": "measure",
+    "create": "measure",
+    "fit": "measure",
+    "plan": "measure",
+    "lsp": "lsp",
+    "show": "plot",
+    "sweep": "sweep",
+    "budget": "measure",
+    "report": "measure",
+    "replay": "plot",
+    "diagnose": "tables",
 }
-"""Packages without which a command does nothing: of the extra ``lsp``, and of ``workbench``."""
+"""The extra without which a command does nothing."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status: 2 for a wrong command line, else what the command says."""
-    _print_anything()
-    parser = argparse.ArgumentParser(
-        prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
-    )
-    parser.add_argument("--version", action="version", version=f"axcomp {__version__}")
-    subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     given = sys.argv[1:] if arguments is None else arguments
-    missing = [name for name, packages in EXTRA.items() if not all(map(find_spec, packages))]
-    if given and given[0] in COMMANDS:
-        _module(given[0]).add_subparser(subparsers)
-    else:
-        for name, what in COMMANDS.items():
-            if name not in missing:
-                subparsers.add_parser(name, help=what)
-    if missing:
-        extras = ",".join(sorted({_extra_of(name) for name in missing}))
-        parser.epilog = f"With pip install 'axcomp[{extras}]' there are also: {', '.join(missing)}."
-    options = parser.parse_args(given)
+    _print_anything()
     try:
-        status: int = options.do(options)
-        sys.stdout.flush()
+        return _run(given)
     except BrokenPipeError:
         # The reader of a pipe has seen enough; Python must not try to flush the rest on its way out.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 1
     except KeyboardInterrupt:
+        print("axcomp: interrupted", file=sys.stderr)
         return 130
     except ModuleNotFoundError as error:
-        print(f"axcomp: {error.name} is missing; pip install 'axcomp[workbench]' installs it.", file=sys.stderr)
+        print(f"axcomp: {_lacking(given[0], error)}", file=sys.stderr)
         return 1
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
@@ -91,21 +81,55 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ValueError as error:
         print(f"axcomp: {error}", file=sys.stderr)
         return 1
+
+
+def _run(given: Sequence[str]) -> int:
+    parser = Parser(
+        prog="axcomp", description="Axis compensations of CNC machines: from the controller's lists to an FMU."
+    )
+    parser.add_argument("--version", action="version", version=f"axcomp {__version__}")
+    subparsers: argparse._SubParsersAction[argparse.ArgumentParser]
+    subparsers = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
+    completed = os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []
+    command = next(iter([*given, *completed]), "")
+    absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
+    lacking = [name for name, extra in EXTRA.items() if extra in absent]
+    if command in COMMANDS:
+        _add(command, subparsers)
+    else:
+        for name, what in COMMANDS.items():
+            if name not in lacking:
+                subparsers.add_parser(name, help=what)
+    if lacking:
+        parser.epilog = f"With pip install 'axcomp[workbench]' there are also: {', '.join(lacking)}."
+    if "_ARGCOMPLETE" in os.environ:
+        needed("argcomplete", "completion", "Completion").autocomplete(parser)
+    options = parser.parse_args(given)
+    if sentence_ := refusal(options):
+        print(f"axcomp {command}: {sentence_}", file=sys.stderr)
+        return 1
+    status: int = options.do(options)
+    sys.stdout.flush()
     return status
 
 
-def _module(name: str) -> ModuleType:
-    """Import the module of a command; SystemExit with a sentence if one of its packages is missing."""
+def _add(name: str, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add a command; SystemExit with a sentence if one of its packages is missing."""
     try:
-        return import_module(f".{name}", __name__)
+        import_module(f".{name}", __name__).add_subparser(subparsers)
     except ModuleNotFoundError as error:
         if error.name is None or error.name.split(".")[0] == __package__.split(".")[0]:
             raise
-        raise SystemExit(f"axcomp: {name} needs {error.name}: pip install 'axcomp[{_extra_of(name)}]'") from None
+        raise SystemExit(f"axcomp: {_lacking(name, error)}") from None
 
 
-def _extra_of(command: str) -> str:
-    return "lsp" if command == "lsp" else "workbench"
+def _lacking(command: str, error: ModuleNotFoundError) -> str:
+    """Return what to install for a command."""
+    if isinstance(error, MissingExtraError):
+        return str(error)
+    extra = EXTRA.get(command, "")
+    package = (error.name or "").partition(".")[0]
+    return sentence(package, extra if package in EXTRAS.get(extra, ()) else "", command)
 
 
 def _print_anything() -> None:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..convert import (
+from ..conversion import (
     CONVERTED,
     FORMATS,
     LISTS,

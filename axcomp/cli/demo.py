@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import shutil
 import sys
+import textwrap
 from pathlib import Path
 
 from ..model import CYCLE_TIME, machine_path, models
+from .progress import progress
 
 PICTURE = "demo.png"
 
@@ -19,6 +22,10 @@ No table removes: thermal growth, lag and ringing of the structure, compliance b
 the peak that its table leaves with the best position_delay, reversal_lookahead, delay_cycles and scaling_factor."""
 
 MEMORY = "Plant that remembers: friction with pre-sliding, different per direction; a structure that swings; growth"
+
+NEXT = """
+Next: axcomp show models/three_axis --output tables.html
+      axcomp check PATH/TO/YOUR/LISTS"""
 
 EXAMPLE = """\
 PATH needs a plant.json beside the lists: drives, friction and geometric errors of the machine.
@@ -57,9 +64,10 @@ def _do_demo(args: argparse.Namespace) -> int:
     from ..demo import BuildError, DemoError, demonstrate, draw, table
 
     try:
-        machine, results, note, remembering = demonstrate(
-            args.machine or models() / "three_axis", args.output, args.seed
-        )
+        with progress("cycles") as show:
+            machine, results, note, remembering = demonstrate(
+                args.machine or models() / "three_axis", args.output, args.seed, show
+            )
         draw(args.output / PICTURE, machine, remembering or results, CYCLE_TIME)
     except (BuildError, DemoError) as error:
         print(f"axcomp demo: {error}", file=sys.stderr)
@@ -72,5 +80,6 @@ def _do_demo(args: argparse.Namespace) -> int:
     if remembering:
         print(f"\n{MEMORY}\n")
         print(table(remembering, remembering=True))
-    print(f"\n{NOTE}\n{args.output / PICTURE}")
+    width = shutil.get_terminal_size((120, 25)).columns
+    print(f"\n{textwrap.fill(NOTE, width)}\n\n{args.output / PICTURE}\n{NEXT}")
     return 0

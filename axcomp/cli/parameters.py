@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
+import textwrap
 from collections.abc import Iterable, Sequence
 
 from ..kinds import ListKind
@@ -13,6 +15,10 @@ _EXAMPLE = """\
 example:
   axcomp parameters --list achskw
 """
+
+
+LEAST = 20
+"""Characters that the last column needs."""
 
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -51,7 +57,16 @@ def _do_parameters(options: argparse.Namespace) -> int:
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Iterable[str]:
-    """Yield rows with their columns below each other; the last column is as wide as it is."""
+    """Yield rows with their columns below each other; the last one goes on below where the terminal ends."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    room = shutil.get_terminal_size((0, 0)).columns
+    before = sum(widths[:-1]) + 2 * (len(widths) - 1)
     for row in rows:
-        yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        line = "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        if not room or len(line) <= room:
+            yield line
+        elif before + LEAST <= room:
+            yield from textwrap.wrap(line, room, subsequent_indent=" " * before, drop_whitespace=True)
+        else:
+            cells = "  ".join(cell for cell in row if cell)
+            yield from textwrap.wrap(cells, room, subsequent_indent="    ")

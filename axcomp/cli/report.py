@@ -39,7 +39,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     )
     parser.add_argument("--interactive", action="store_true", help="volumetric errors in 3-D, by Plotly's script")
     add_judgement_options(parser)
-    group = parser.add_argument_group("a dated protocol instead, which prints to A4; the first measurement is before")
+    group = parser.add_argument_group("a dated protocol instead", "It prints to A4; the first measurement is before.")
     group.add_argument("--protocol", action="store_true", help="write it")
     group.add_argument("--fields", type=Path, metavar="FILE.toml", help="what it says; options go before the file")
     for one in fields(ProtocolFields):

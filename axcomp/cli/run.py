@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -13,12 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.diagnosis import write_named_diagnoses
-from ..engine import COMMAND, Engine, NcError
+from ..engine import COMMAND, TIME, Engine, NcError, read_table
 from ..lists import read_machine
 from ..model import CYCLE_TIME, machine_path
 from .axis_type import add_axis_type
 
-TIME = "time"
 _ON_TIME = 1e-6
 """Share of a cycle by which the instants of the rows may be off."""
 
@@ -106,7 +104,7 @@ def _do_run(args: argparse.Namespace) -> int:
         sys.stdout.writelines(f"{line}\n" for line in result.csv_lines())
     else:
         result.to_csv(args.output)
-        print(f"{args.output}: {len(result)} cycles, {len(result.values)} outputs")
+        print(f"{args.output}: {result.cycles} cycles, {len(result)} outputs")
     return 0
 
 
@@ -124,42 +122,14 @@ def _report_commands(engine: Engine, path: Path, program: _Program) -> int:
 
 def _read(path: Path) -> _Program:
     """Return a program; ValueError that names file and line for what is none."""
-    with path.open(encoding="utf-8-sig", newline="") as file:
-        reader = csv.reader(file)
-        names = [name.strip() for name in next(reader, [])]
-        if not names or len(set(names)) < len(names):
-            raise ValueError(f"{path}:1: the first line must name the columns, each once")
-        rows, lines = [], []
-        before = 1
-        for row in reader:
-            if any(cell.strip() for cell in row):
-                if len(row) != len(names):
-                    raise ValueError(f"{path}:{before + 1}: {len(row)} cells, but {len(names)} columns")
-                rows.append(row)
-                lines.append(before + 1)
-            before = reader.line_num
-    if not rows:
-        raise ValueError(f"{path}: there is no row below the names of the columns")
-    columns = dict(zip(names, zip(*rows, strict=True), strict=True))
-    commands = list(columns.pop(COMMAND, [""] * len(rows)))
-    time = columns.pop(TIME, None)
-    inputs = {name: _numbers(path, lines, name, cells) for name, cells in columns.items()}
+    table = read_table(path, comments=False)
+    inputs = {name: table.numbers(k, name, repeated=True) for k, name in enumerate(table.names) if name != COMMAND}
+    place = table.names.index(COMMAND) if COMMAND in table.names else None
+    commands = [""] * len(table.rows) if place is None else [row[place] for row in table.rows]
+    time = inputs.pop(TIME, None)
     if time is None:
-        return _Program(inputs, commands, lines, None)
-    instants = _numbers(path, lines, TIME, time)
-    return _Program(inputs, commands, lines, _spacing(path, lines, instants), float(instants[0]))
-
-
-def _numbers(path: Path, lines: Sequence[int], name: str, cells: Sequence[str]) -> NDArray[np.float64]:
-    values = np.empty(len(cells))
-    words = {"true": 1.0, "false": 0.0}
-    for row, cell in enumerate(cells):
-        text = cell.strip().lower()
-        try:
-            values[row] = values[row - 1] if not text and row else words.get(text) if text in words else float(text)
-        except ValueError:
-            raise ValueError(f"{path}:{lines[row]}: {name}: {cell.strip()!r} is no number") from None
-    return values
+        return _Program(inputs, commands, list(table.lines), None)
+    return _Program(inputs, commands, list(table.lines), _spacing(path, table.lines, time), float(time[0]))
 
 
 def _spacing(path: Path, lines: Sequence[int], time: NDArray[np.float64]) -> float | None:

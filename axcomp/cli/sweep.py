@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .lists import STATUS_MAX
+from .progress import progress
 
 if TYPE_CHECKING:
     from ..sweep import Sweep
@@ -49,7 +48,7 @@ SPEC is a TOML file, or JSON with the same keys; paths count from where it lies:
   "half way" = "at 5.0 Y.corrected_setpoint"
 
 Rows have the order of SPEC, whatever ends first. Stopped and started again, a sweep goes on where it was: FILE.journal
-holds what is done. A run that fails has its error in the row. Workers of a cluster need axcomp[workbench] too.
+holds what is done. A run that fails has its error in the row. Workers of a cluster need axcomp[sweep] too.
 
 examples:
   axcomp sweep sweep.toml --output results.parquet
@@ -89,7 +88,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
     job, findings = job_of(spec)
     for finding in findings:
         print(finding, file=sys.stderr)
-    with _progress() as show:
+    with progress("runs") as show:
         try:
             sweep = run_sweep(
                 spec, job, args.output, scheduler=args.scheduler, workers=args.workers, retry=args.retry, progress=show
@@ -150,16 +149,3 @@ def _print(output: Path, sweep: Sweep) -> None:
             f"{output}: {len(table)} runs{before}{more}", [sweep.labelled(str(name)) for name in shown], rows
         )
     )
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """Keep a progress bar on standard error; it takes how many runs are done, and of how many."""
-    from rich import progress as rich
-    from rich.console import Console
-
-    columns = [rich.TextColumn("runs"), rich.BarColumn(), rich.MofNCompleteColumn()]
-    columns += [rich.TimeElapsedColumn(), rich.TimeRemainingColumn()]
-    with rich.Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("runs", total=None)
-        yield lambda done, of: bar.update(task, completed=done, total=of)

@@ -23,6 +23,7 @@ from ..engine import Array
 COMPENSATION, PLANT = "axcomp", "plant"
 COMMANDS = ("setpoint", "velocity", "acceleration")
 BATCH, RESULTS = "batch.pickle", "results.pickle"
+DONE = "done.txt"
 """What a process finds in its folder, and what it leaves there: what ``couple`` returns of each simulation."""
 
 
@@ -156,7 +157,11 @@ def couple(folder: Path, batch: Batch, simulation: Simulation) -> Array:
 def main(folder: Path) -> None:
     """Do what lies in a folder beside those of the FMUs."""
     batch: Batch = pickle.loads((folder / BATCH).read_bytes())
-    results = [couple(folder.parent, batch, simulation) for simulation in batch.simulations]
+    results = []
+    for simulation in batch.simulations:
+        results.append(couple(folder.parent, batch, simulation))
+        with (folder / DONE).open("a", encoding="ascii") as done:
+            done.write(f"{len(simulation.commands)}\n")
     # Complete before the process ends: ending an embedded interpreter is where it may fail.
     unfinished = folder / "unfinished"
     unfinished.write_bytes(pickle.dumps(results))

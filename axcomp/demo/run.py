@@ -20,13 +20,16 @@ from ..fit import Circle, ReversingAxis, tune
 from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native
 from ..model import CYCLE_TIME, Machine
 from ..plant import MEMORYLESS, Plant, load_plant, package_plant, plant_variables
-from .coupling import BATCH, COMMANDS, COMPENSATION, PLANT, RESULTS, Batch, Simulation
+from .coupling import BATCH, COMMANDS, COMPENSATION, DONE, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
 from .trials import FEED, RADIUS, TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
 
 WITHOUT_MEMORY = f"{PLANT}_{MEMORYLESS}"
 """Name of the other plant's FMU."""
 
+Progress = Callable[[int, int], None]
+POLL = 0.1
+"""Seconds between two looks at how far the trials are."""
 PROCESSES = 2
 """That run the trials side by side."""
 
@@ -48,11 +51,15 @@ class Demo(NamedTuple):
     remembering: tuple[Outcome, ...] = ()
 
 
-def demonstrate(lists: Path, output: Path, seed: int | None = None) -> Demo:
+def demonstrate(
+    lists: Path, output: Path, seed: int | None = None, progress: Progress = lambda _done, _of: None
+) -> Demo:
     """Build ``axcomp.fmu`` and the plants in a folder, couple them and return the errors of all axes.
 
     ``plant.fmu`` is all that ``plant.json`` says, with parameters drawn by ``seed`` (None: as it says);
     ``plant_memoryless.fmu`` the same without memory, if that is another.
+
+    ``progress``: called with the cycles that are done, and with all there are.
 
     Raises
     ------
@@ -90,7 +97,9 @@ def demonstrate(lists: Path, output: Path, seed: int | None = None) -> Demo:
         for name, path in ((COMPENSATION, built.path), *plants.items()):
             extract(path, folder / name)
         tool_length = TOOL_LENGTH if knows_tip and machine.volumetric else None
-        traces, left = _simulate(folder, machine, every, tool_length, lambda: _best_left(machine, trials, whole))
+        traces, left = _simulate(
+            folder, machine, every, tool_length, progress, lambda: _best_left(machine, trials, whole)
+        )
     shown = []
     for first in range(0, len(every), len(simulations)):
         pairs = [(traces[first + without], traces[first + compensated]) for without, compensated in of_trial]
@@ -157,6 +166,7 @@ def _simulate(
     machine: Machine,
     simulations: Sequence[Simulation],
     tool_length: float | None,
+    progress: Progress,
     meanwhile: Callable[[], dict[str, float]],
 ) -> tuple[list[Trace], dict[str, float]]:
     """Share the simulations out to processes, each of which loads both FMUs.
@@ -185,7 +195,12 @@ def _simulate(
     try:
         computed = meanwhile()
         for number, (child, share) in enumerate(zip(children, shares, strict=True)):
-            child.wait()
+            while True:
+                try:
+                    child.wait(POLL)
+                    break
+                except subprocess.TimeoutExpired:
+                    progress(sum(map(_done, folder.glob(f"batch*/{DONE}"))), sum(load))
             for index, recorded in zip(share, _results(folder / f"batch{number}"), strict=True):
                 traces[index] = Trace.of(axes, recorded)
     finally:
@@ -193,6 +208,11 @@ def _simulate(
             child.kill()
             child.wait()
     return [traces[index] for index in range(len(simulations))], computed
+
+
+def _done(file: Path) -> int:
+    """Return how many cycles a process has run, by what it has noted whole."""
+    return sum(int(line) for line in file.read_text(encoding="ascii").split("\n")[:-1])
 
 
 def _results(folder: Path) -> list[Array]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .engine import COMMAND as COMMAND, Engine as Engine, Result as Result
+    from .engine import COMMAND as COMMAND, Engine as Engine
     from .motion import Array as Array, Course as Course, Limits as Limits, Setpoints as Setpoints, move as move
     from .nc_commands import (
         Assignment as Assignment,
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         parse_block as parse_block,
     )
     from .nc_scanner import NcError as NcError
+    from .result import Result as Result
     from .sheet import (
         Row as Row,
         Sheet as Sheet,
@@ -43,11 +44,12 @@ if TYPE_CHECKING:
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
-        engine="COMMAND Engine Result",
+        engine="COMMAND Engine",
         motion="Array Course Limits Setpoints move",
         nc_commands="Assignment AxisCommand AxisVariable Command Variable VolumetricSwitch VolumetricUpdate "
         "parse_block",
         nc_scanner="NcError",
+        result="Result",
         sheet="Row Sheet SheetError number read_sheets",
         tcp_model="TcpModel",
         trajectory="Columns InputError InputFile LIMITS Motion Sine TIME completed read_input read_table",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,9 +12,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..lists import decode
 from .completion import differences
 from .motion import Array, Course, Limits, Setpoints
+from .sheet import SheetError, number, read_sheets
 
 Columns = dict[str, npt.NDArray[Any]]
 """Inputs by name, shape (cycles,): float64, or bool."""
@@ -158,64 +156,65 @@ class TextTable:
         Where each row stands.
     rows : tuple of sequences of str
         At least one, all as long as ``names``.
-    comma : bool
-        Commas stand for decimal points, for they do not separate cells.
     """
 
     path: Path
     names: tuple[str, ...]
     lines: tuple[int, ...]
     rows: tuple[Sequence[str], ...]
-    comma: bool
 
-    def numbers(self, place: int, name: str) -> Array:
-        """Return a column, shape (rows,); InputError, with ``name`` as what it is, for a cell that is no number."""
-        return np.array([self._number(line, name, row[place]) for line, row in zip(self.lines, self.rows, strict=True)])
+    def numbers(self, place: int, name: str, *, repeated: bool = False) -> Array:
+        """Return a column, shape (rows,); InputError, with ``name`` as what it is, for a cell that is no number.
+
+        ``repeated``: an empty cell is the one above it.
+        """
+        values = np.empty(len(self.rows))
+        for number_, (line, row) in enumerate(zip(self.lines, self.rows, strict=True)):
+            empty = repeated and number_ > 0 and not row[place].strip()
+            values[number_] = values[number_ - 1] if empty else self._number(line, name, row[place])
+        return values
 
     def _number(self, line: int, name: str, cell: str) -> float:
-        word = cell.strip().lower()
         try:
-            value = _BOOLEANS[word] if word in _BOOLEANS else float(word.replace(",", ".") if self.comma else word)
+            value: float | None = float(cell)
         except ValueError:
-            raise InputError(f"{self.path}:{line}: {cell!r} is no number, as {name} has to be.") from None
+            word = cell.strip().lower()
+            value = _BOOLEANS[word] if word in _BOOLEANS else number(cell)
+        if value is None:
+            raise InputError(f"{self.path}:{line}: {cell.strip()!r} is no number, as {name} has to be.")
         if name == TIME and not math.isfinite(value):
             raise InputError(f"{self.path}:{line}: {cell!r} is no time in s.")
         return value
 
 
-def read_table(path: Path) -> TextTable:
-    """Read a table with names in its first row; cells are separated by semicolons, tabs or commas.
+def read_table(path: Path, *, comments: bool = True) -> TextTable:
+    """Read a table with names in its first row, in any dialect of ``read_sheets``, which has ``comments`` too.
 
     Raises
     ------
     InputError
-        The file cannot be read, a row is incomplete, or there is none.
+        The file cannot be read, a row is incomplete, there is none, or there are several tables.
     """
     try:
-        text = decode(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path}: The file cannot be read: {error.strerror or error}.") from None
-    if text is None:
-        raise InputError(f"{path}: The file is no text.")
-    separator = next((one for one in ";\t" if one in text.split("\n", 1)[0]), ",")
-    names: list[str] = []
-    rows: list[list[str]] = []
-    lines: list[int] = []
-    for line, cells in enumerate(csv.reader(io.StringIO(text), delimiter=separator), 1):
-        if not any(cell.strip() for cell in cells):
-            continue
-        if not names:
-            names = [cell.strip() for cell in cells]
-            if len(set(names)) < len(names) or not all(names):
-                raise InputError(f"{path}:{line}: Every column needs a name of its own.")
-            continue
-        if len(cells) != len(names):
-            raise InputError(f"{path}:{line}: There are {len(cells)} cells for {len(names)} columns.")
-        rows.append(cells)
-        lines.append(line)
+        sheets = read_sheets(path, comments=comments)
+    except SheetError as error:
+        raise InputError(str(error)) from None
+    if len(sheets) > 1:
+        raise InputError(f"{path}: There are {len(sheets)} tables in it; one is needed.")
+    rows = sheets[0].rows if sheets else []
     if not rows:
         raise InputError(f"{path}: There is no row of inputs in it.")
-    return TextTable(path, tuple(names), tuple(lines), tuple(rows), separator != ",")
+    names = rows[0].cells
+    if len(set(names)) < len(names) or not all(names):
+        raise InputError(f"{path}:{rows[0].line}: Every column needs a name of its own.")
+    if len(rows) < 2:
+        raise InputError(f"{path}: There is no row of inputs in it.")
+    for row in rows[1:]:
+        # A workbook does not have the empty cells at the end of a row.
+        if len(row.cells) != len(names) and (comments or len(row.cells) > len(names)):
+            raise InputError(f"{path}:{row.line}: There are {len(row.cells)} cells for {len(names)} columns.")
+    filled = tuple((*row.cells, *[""] * (len(names) - len(row.cells))) for row in rows[1:])
+    return TextTable(path, names, tuple(row.line for row in rows[1:]), filled)
 
 
 def read_input(path: Path) -> InputFile:

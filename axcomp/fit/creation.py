@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..lists import write_whole
+from ..model import Tabular, Tabulated
 from .keeping import backed_up, changes, owners
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ class Report(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Creation:
+class Creation(Tabular, Mapping[str, Mapping[str, float]]):
     """A list with a new table.
 
     Attributes
@@ -87,6 +88,21 @@ class Creation:
     report: Report
     before: Mapping[Path, bytes] = field(repr=False, default_factory=dict)
     draw: Callable[[Axes], None] = field(repr=False, default=lambda _: None)
+
+    def __getitem__(self, state: str) -> Mapping[str, float]:
+        """Return the figures of a state."""
+        return self.figures[state]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.figures)
+
+    def __len__(self) -> int:
+        return len(self.figures)
+
+    def tabulated(self) -> Tabulated:
+        """Return the figures, a column for each state."""
+        columns = {state: [one.get(name, math.nan) for name in self.labels] for state, one in self.figures.items()}
+        return Tabulated("figure", list(self.labels), columns, dict.fromkeys(columns, self.unit))
 
     @property
     def path(self) -> Path:

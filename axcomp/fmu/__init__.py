@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         generation_date as generation_date,
         write_fmu as write_fmu,
     )
+    from .bill import BILL as BILL, bill_of_archive as bill_of_archive
     from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built, Version as Version
     from .description import (
         Description as Description,
@@ -39,6 +40,7 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         archive="BuildError content_guid file_bytes generation_date write_fmu",
+        bill="BILL bill_of_archive",
         content="Built NAME PACKAGE Version",
         description="Description add_units document model_description",
         documentation="accompanying",

@@ -34,9 +34,30 @@ Version = Literal["2.0", "3.0"]
 class Built(NamedTuple):
     """What a machine's lists give for its FMU, and the file that was written from them.
 
-    The machine has at least one axis. The description lacks what depends on the kind of FMU. ``start`` is what
-    ``read_machine`` must read in ``resources``, ``lists`` the contents by path there; ``path`` is the file, once it is
-    written, ``note`` what there is to say about its libraries.
+    Attributes
+    ----------
+    reading : Reading
+        The lists; there is at least one axis.
+    compiled : Compiled
+        The kernel's tables.
+    variables : tuple of Variable
+    description : Description
+        Without what depends on the kind of FMU.
+    start : str
+        What ``read_machine`` must read in ``resources``.
+    lists : mapping of str to bytes
+        The lists by their paths there.
+    path : Path
+        The file, once it is written.
+    note : str
+        What there is to say about its libraries.
+
+    Examples
+    --------
+    >>> from axcomp import build_fmu, models
+    >>> built = build_fmu(models() / "rotary_table", "table.fmu")
+    >>> built.path.name, [axis.name for axis in built.machine.axes], built.start
+    ('table.fmu', ['C'], 'machine')
     """
 
     reading: Reading

@@ -27,6 +27,7 @@ from ..native import (
     why_not_prebuilt,
 )
 from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
+from .bill import BILL, bill_of_fmu
 from .content import NAME, Built, Version, output_path, read_content
 from .description import Description, model_description
 from .description3 import model_description_3
@@ -113,7 +114,7 @@ def package_native(
     if fmi == "3.0":
         del files["model.png"]  # its icon is that of the terminals
     path = output_path(output, f"{name}.fmu")
-    write_fmu(path, files)
+    write_fmu(path, {**files, BILL: bill_of_fmu(files)})
     reason = why_not_prebuilt()
     return content._replace(path=path, note=f"{reason}: compiled for {', '.join(libraries)}" if reason else "")
 

@@ -11,8 +11,9 @@ from pathlib import Path
 
 from ..interface import Naming, Types, Variable
 from ..lists import TypeName
-from ..model import CYCLE_TIME, fmu_sources
+from ..model import CYCLE_TIME, fmu_sources, sentence
 from .archive import BuildError, content_guid, file_bytes, write_fmu
+from .bill import BILL, bill_of_fmu
 from .content import NAME, PACKAGE, Built, output_path, read_content
 from .description import Description, model_description
 from .packed_interface import FILE_NAME, Interface
@@ -67,7 +68,7 @@ def write_python_fmu(
     guid = content_guid({**files, "modelDescription.xml": undated})
     files.update(shown)
     files["modelDescription.xml"] = model_description(description, variables, guid)
-    write_fmu(path, files)
+    write_fmu(path, {**files, BILL: bill_of_fmu(files)})
     return path
 
 
@@ -75,7 +76,7 @@ def _pythonfmu(model_identifier: str) -> dict[str, bytes]:
     """Return pythonfmu's loaders under the name of the model, its Python part, and its license."""
     spec = importlib.util.find_spec("pythonfmu")
     if spec is None or spec.origin is None:
-        raise BuildError("pythonfmu is not installed: pip install 'pythonfmu>=0.7,<0.8'")
+        raise BuildError(sentence("pythonfmu", "python", "An FMU that runs in Python"))
     folder = Path(spec.origin).parent
     files = {f"resources/pythonfmu/{path.name}": file_bytes(path) for path in folder.glob("*.py")}
     binaries = folder / "resources" / "binaries"

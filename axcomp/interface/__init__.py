@@ -15,7 +15,7 @@ from .declarations import (
 from .errors import ERROR_CALL, ERRORS
 from .reference import PAGE, README, readme_with_section, reference_page
 from .slot import Slot, slot_in, steps_of
-from .variable import BLOCK, TYPE_NAMES, Value, Variable, whole, with_causality
+from .variable import BLOCK, INTEGER_MAX, TYPE_NAMES, Value, Variable, whole, with_causality
 from .variables import Controls, Naming, Types, by_name, every_slot, identifier, slot_of, variables_of
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "BLOCK",
     "ERRORS",
     "ERROR_CALL",
+    "INTEGER_MAX",
     "MACHINE_BLOCK",
     "OF_MACHINE",
     "OF_VOLUMETRIC",

@@ -130,8 +130,10 @@ def slot_of(
     for record in records:
         candidate: object = record
         if axis is not None or volumetric is not None:
-            if not isinstance(record, Inputs if declared.causality == "input" else Outputs):
+            # By its name: the records of a compiled kernel are no dataclasses, but called alike.
+            if type(record).__name__ != ("Inputs" if declared.causality == "input" else "Outputs"):
                 continue
+            assert not isinstance(record, Controls)
             candidate = record.axis[axis] if axis is not None else record.volumetric[volumetric or 0]
         found = slot_in(candidate, declared.field)
         if found is not None:

@@ -32,6 +32,12 @@ class Finding:
         One sentence: what was wrong, and what is used instead.
     column : int
         Where the entry begins, in characters from 1; 0 where that is not known.
+
+    Examples
+    --------
+    >>> from axcomp import Finding, Severity
+    >>> str(Finding(Severity.ERROR, "achskw1.lis", 14, "", "110591", "The table does not ascend; it stays off."))
+    'achskw1.lis:14: error 110591: The table does not ascend; it stays off.'
     """
 
     severity: Severity
@@ -49,12 +55,12 @@ class Finding:
         return f"{self.file}:{self.line}: {self.severity.value} {self.code}: {self.message}{entry}"
 
 
-class ListError(Exception):
-    """Raised in strict mode: all findings of severity error, one a line."""
+class ListError(ValueError):
+    """Lists that cannot be used: ``findings`` say why, one a line in the message."""
 
     def __init__(self, findings: Iterable[Finding]) -> None:
         self.findings = tuple(findings)
-        super().__init__("\n".join(str(finding) for finding in self.findings))
+        super().__init__("\n".join(map(str, self.findings)) or "There is no axis in these lists.")
 
 
 _ERROR, _WARNING, _INFO = Severity

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from ..kinds import KINDS, Kind, ListKind, Severity
-from ..model import Axis, AxisType, Compensation, Machine, ModuloRange, Volumetric
+from ..model import Axis, AxisType, Compensation, Machine, ModuloRange, Volumetric, as_html, needed
 from .axes import Axes, AxisSettings, read_axis
 from .compensation import TableReader
 from .document import Document
@@ -50,6 +50,13 @@ class Reading:
         What was said of axes without axis lists.
     inner_findings : tuple of Finding
         The same findings; lists that stand in another file are named themselves, and their own lines counted.
+
+    Examples
+    --------
+    >>> from axcomp import models, read_machine
+    >>> reading = read_machine(models() / "rotary_table")
+    >>> reading.machine.axes[0].kinds, reading.start_up.path.name
+    (('leadscrew', 'friction'), 'hochlauf.lis')
     """
 
     machine: Machine
@@ -71,12 +78,23 @@ class Reading:
             return path.parent.name
         return path.stem if path.is_file() else path.name
 
+    def _repr_html_(self) -> str:
+        """Return machine and findings as tables, for notebooks."""
+        rows = [[f"{f.file}:{f.line}", f.severity.value, f.code, f.parameter, f.message] for f in self.findings]
+        findings = as_html(["place", "severity", "code", "parameter", "finding"], rows, "text") if rows else ""
+        return f"{self.machine._repr_html_()}{findings or '<p>No findings.</p>'}"
+
+    def to_frame(self) -> Any:
+        """Return the findings as a pandas data frame, a row each."""
+        rows = [{**asdict(one), "severity": one.severity.value} for one in self.findings]
+        return needed("pandas", "frame").DataFrame(rows, columns=[one.name for one in fields(Finding)])
+
     def axis_list(self, number: int) -> Document | None:
-        """Return the list that describes an axis, by its logical number."""
+        """Return the list that describes an axis, by its logical ``number``."""
         return self._axis_lists.get(number)
 
     def compensation_list(self, number: int) -> Document | None:
-        """Return the list with the tables of an axis, by its logical number."""
+        """Return the list with the tables of an axis, by its logical ``number``."""
         return self._compensation_lists.get(number)
 
     def again(self) -> Reading:
@@ -84,7 +102,7 @@ class Reading:
         return read_machine(self.path, documents=self.documents.values(), axis_type=self.axis_type)
 
     def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
-        """Return findings about these lists with the columns of the entries they are about."""
+        """Return ``findings`` about these lists with the columns of the entries they are about."""
         return outside(located(findings, self.documents), self.documents)
 
 
@@ -122,6 +140,13 @@ def read_machine(
     ------
     ListError
         In strict mode, with all findings of severity error.
+
+    Examples
+    --------
+    >>> from axcomp import models, read_machine
+    >>> reading = read_machine(models() / "warm_axis", strict=True)
+    >>> [axis.name for axis in reading.machine.axes], len(reading.findings)
+    (['X', 'Y'], 0)
     """
     findings = Findings()
     reader = _MachineReader(findings, Files(findings, documents, beside_disk), axis_type)

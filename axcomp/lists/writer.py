@@ -17,7 +17,7 @@ _MODULO_MODE = 0x4
 
 
 def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
-    """Write the start-up list, the lists of the axes and of the volumetric compensations.
+    """Write the lists of ``machine`` into ``folder``: start-up list, axes, volumetric compensations.
 
     Each axis has an axis list and, where it needs one, a compensation list; each volumetric compensation its list and
     a parameter file.

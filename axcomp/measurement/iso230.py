@@ -15,7 +15,7 @@ direction there is no B, M, E, R and A, only their one-directional kin.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
-from ..model import symbol
+from ..model import Tabular, Tabulated, symbol
 from .outliers import Outlier
 from .positioning import Positioning
 from .uncertainty import Conditions
@@ -56,8 +56,8 @@ OF_TARGETS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Iso230Result:
-    """What ISO 230-2 says of a measurement; all but ``positions`` in ``unit``, m targets.
+class Iso230Result(Tabular, Mapping[str, float]):
+    r"""What ISO 230-2 says of a measurement; all but ``positions`` in ``unit``, m targets.
 
     Attributes
     ----------
@@ -89,6 +89,17 @@ class Iso230Result:
         What the standard would say without them; None: there are none.
     notes : tuple of str
         What is missing, and why.
+
+    It is a mapping of the figures of the axis; ``to_frame()`` has those of the targets.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from axcomp import measure
+    >>> _ = Path("x.csv").write_text("target,run,direction,deviation\n0,1,+,0\n0,1,-,3\n9,1,+,1\n9,1,-,2\n")
+    >>> result = measure("x.csv")
+    >>> float(result["B"]), result.unit, result.to_frame().attrs["units"]["target"]
+    (3.0, 'µm', 'mm')
     """
 
     axis: str
@@ -131,8 +142,10 @@ class Iso230Result:
 
     def table(self) -> pd.DataFrame:
         """Return the figures of each target as a data frame, one row a target, symbols of the standard as columns."""
-        import pandas as pd  # of the extra "workbench"
+        return self.to_frame().rename_axis(f"target [{self.position_unit}]")
 
+    def tabulated(self) -> Tabulated:
+        """Return the figures of each target, symbols of the standard as columns."""
         columns = {
             "n↑": self.count_up,
             "n↓": self.count_down,
@@ -140,7 +153,18 @@ class Iso230Result:
             "U(x̄↑)": mean_uncertainty(self.s_up, self.count_up),
             "U(x̄↓)": mean_uncertainty(self.s_down, self.count_down),
         }
-        return pd.DataFrame(columns, index=pd.Index(self.positions, name=f"target [{self.position_unit}]"))
+        units = {name: "" if name.startswith("n") else self.unit for name in columns}
+        return Tabulated("target", self.positions, columns, {"target": self.position_unit, **units})
+
+    def __getitem__(self, name: str) -> float:
+        """Return a figure of the axis by its name in ``PARAMETERS``."""
+        return self.parameters()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(PARAMETERS)
+
+    def __len__(self) -> int:
+        return len(PARAMETERS)
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything for JSON; None stands for what is not available."""

@@ -40,6 +40,25 @@ def _condition(unit: str, meaning: str, default: float = 0.0) -> Any:
 class Conditions:
     """Of a test on a linear axis; what is left at 0 does not contribute.
 
+    Attributes
+    ----------
+    device : float
+        Expanded uncertainty (k = 2) of the instrument, µm/m.
+    misalignment : float
+        How far instrument and axis may be out of line over the travel, mm.
+    temperature_range, temperature_offset : float
+        Range within which it is known how warm the machine is, and how much warmer than 20 °C it is, K.
+    expansion, expansion_range : float
+        Expansion coefficient of the machine's scale, and the range within which it is known, 1e-6/K.
+    drift : float
+        Range of readings at rest (E_VE), µm.
+
+    Examples
+    --------
+    >>> from axcomp import Conditions
+    >>> round(Conditions(device=0.5, drift=0.8).of_parameters(travel=1000.0, runs=5)["B"], 3)
+    0.292
+
     Raises
     ------
     ValueError
@@ -61,7 +80,7 @@ class Conditions:
                 raise ValueError(f"{item.name.replace('_', ' ')} cannot be {value:g}")
 
     def contributions(self, travel: float) -> dict[str, float]:
-        """Return U_DEVICE, U_MISALIGNMENT, U_M, U_E and U_EVE in µm for a travel in mm."""
+        """Return U_DEVICE, U_MISALIGNMENT, U_M, U_E and U_EVE in µm for a ``travel`` in mm."""
         length = travel / MICRO
         return {
             "U_DEVICE": self.device * length,
@@ -72,7 +91,7 @@ class Conditions:
         }
 
     def of_parameters(self, travel: float, runs: int) -> dict[str, float]:
-        """Return the expanded uncertainty of each figure of ISO 230-2 in µm."""
+        """Return the expanded uncertainty of each figure of ISO 230-2 in µm, for a ``travel`` in mm and ``runs``."""
         *lengths, drift = self.contributions(travel).values()
         common = math.hypot(*lengths)
         reversal = math.sqrt(2.0 / runs) * drift

@@ -5,9 +5,12 @@ from __future__ import annotations
 from .companions import docs, fmu_sources, licence, machine_path, models
 from .curve import Curve
 from .delaunay import Triangulation, triangulate, width
+from .extras import EXTRAS, MissingExtraError, extra_with, missing, needed, sentence
 from .grid import Grid, Scatter
+from .html import as_html
 from .machine import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, AxisType, Compensation, Machine, ModuloRange
 from .quantity import Quantity, Shown, shown, symbol
+from .tabular import Tabular, Tabulated
 from .volumetric import (
     AXIS_NUMBERS,
     CENTERS,
@@ -51,6 +54,7 @@ __all__ = [
     "DESCRIPTION",
     "DIRECTIONS",
     "ERRORS",
+    "EXTRAS",
     "FILES_MAX",
     "FULL_TURN",
     "LENGTH_MAX",
@@ -72,14 +76,19 @@ __all__ = [
     "Grid",
     "Interpolation",
     "Machine",
+    "MissingExtraError",
     "ModuloRange",
     "Quantity",
     "Scatter",
     "Shown",
+    "Tabular",
+    "Tabulated",
     "Triangulation",
     "Triple",
     "Volumetric",
+    "as_html",
     "docs",
+    "extra_with",
     "fmu_sources",
     "is_angle",
     "is_grid",
@@ -87,7 +96,10 @@ __all__ = [
     "largest",
     "licence",
     "machine_path",
+    "missing",
     "models",
+    "needed",
+    "sentence",
     "shown",
     "symbol",
     "triangulate",

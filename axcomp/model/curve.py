@@ -53,6 +53,14 @@ class Curve:
     ------
     ValueError
         Points or values are not such; the sentence begins with the label.
+
+    Examples
+    --------
+    >>> from axcomp import Curve
+    >>> from axcomp.model import Quantity
+    >>> curve = Curve((0.0, 100.0), (0.0, 0.01), Quantity("position", "mm", "X"), Quantity("correction", "mm", "X"))
+    >>> curve.at([50.0, 200.0])
+    [0.005, 0.01]
     """
 
     x: tuple[float, ...]
@@ -107,7 +115,7 @@ class Curve:
     @overload
     def at(self, x: Iterable[float]) -> list[float]: ...
     def at(self, x: float | Iterable[float]) -> float | list[float]:
-        """Return the value at a place, or the values at several."""
+        """Return the value at the place ``x``, or the values at several."""
         if isinstance(x, Iterable):
             return [self._value(place) for place in x]
         return self._value(x)
@@ -131,7 +139,7 @@ class Curve:
         return tuple((y2 - y1) / (x2 - x1) for (x1, y1), (x2, y2) in pairwise(zip(self.x, self.y, strict=True)))
 
     def scaled(self, factor: float) -> Curve:
-        """Return the curve with all values multiplied."""
+        """Return the curve with all values multiplied by ``factor``."""
         return replace(self, y=tuple(factor * value + 0.0 for value in self.y))
 
     def shown(self) -> Curve:
@@ -143,13 +151,13 @@ class Curve:
         return replace(self.scaled(self.sign), sign=1.0)
 
     def on(self, x: Iterable[float]) -> Curve:
-        """Return the curve with other points, which lie between its first and its last one."""
+        """Return the curve with the points ``x``, which lie between its first and its last one."""
         # Not at(): the end of a curve that repeats is a point of its own here.
         places = tuple(x)
         return replace(self, x=places, y=tuple(replace(self, period=None).at(places)))
 
     def beginning_at(self, start: float) -> Curve:
-        """Return a curve that repeats with its first point elsewhere, and the last one a period behind it.
+        """Return a curve that repeats with its first point at ``start``, and the last one a period behind it.
 
         Raises
         ------
@@ -166,13 +174,13 @@ class Curve:
         return replace(self, x=x, y=tuple(self.at(x)))
 
     def minus(self, other: Curve) -> Curve:
-        """Return the difference at the points of both."""
+        """Return the difference to ``other`` at the points of both."""
         x = tuple(sorted({*self._closed.x, *other.closed().x}))
         y = tuple(a - b for a, b in zip(self.at(x), other.at(x), strict=True))
         return replace(self, x=x, y=y, of=self.of.changed(), period=None)
 
     def largest_gap(self, other: Curve) -> Gap:
-        """Return the largest difference: at a point of one of them, for both are straight between these."""
+        """Return the largest difference to ``other``: at a point of one of them; both are straight between."""
         places = {*self._closed.x, *other.closed().x}
         if self.period != other.period:
             # Where one of them repeats, the turns before and behind it count too.
@@ -188,7 +196,7 @@ class Curve:
         return Gap(gaps[worst], x[worst])
 
     def beside_jump(self, place: float) -> tuple[float, ...]:
-        """Return a place, or the two beside it where the curve jumps and has two values there."""
+        """Return ``place``, or the two beside it where the curve jumps and has two values there."""
         assert self.period is not None
         turns = (place - self.x[0]) / self.period
         if abs(turns - round(turns)) >= 0.5 * BESIDE:

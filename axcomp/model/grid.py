@@ -32,6 +32,14 @@ class Grid:
         Of the values.
     label, entry, note : str
         As those of ``Curve``; the entry is ``kw.crosscomp2.table[j][i].correction``.
+
+    Examples
+    --------
+    >>> from axcomp import Grid
+    >>> from axcomp.model import Quantity
+    >>> x, y, z = (Quantity(name, "mm", axis) for name, axis in (("position", "X"), ("position", "Y"), ("error", "Z")))
+    >>> Grid((0.0, 10.0), (0.0, 10.0), ((0.0, 1.0), (2.0, 3.0)), (x, y), z).at(5.0, 5.0)
+    1.5
     """
 
     x: tuple[float, ...]
@@ -47,7 +55,7 @@ class Grid:
         return f"Grid({self.of} over {self.over[0]} and {self.over[1]}, {len(self.x)} × {len(self.y)} points)"
 
     def at(self, x: float, y: float) -> float:
-        """Return the value at a place."""
+        """Return the value at the place ``x``, ``y``."""
         i, share = _cell(self.x, x)
         j, share_up = _cell(self.y, y)
         below = _between(self.values[j], i, share)
@@ -55,7 +63,7 @@ class Grid:
         return below if share_up == 0.0 else below + share_up * (_between(self.values[j + 1], i, share) - below)
 
     def minus(self, other: Grid) -> Grid:
-        """Return the difference, on the points of both."""
+        """Return the difference to ``other``, on the points of both."""
         x, y = (tuple(sorted({*mine, *theirs})) for mine, theirs in ((self.x, other.x), (self.y, other.y)))
         values = tuple(tuple(self.at(u, v) - other.at(u, v) for u in x) for v in y)
         return replace(self, x=x, y=y, values=values, of=self.of.changed())

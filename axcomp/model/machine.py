@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, TypeVar
 
+from .html import as_html
 from .volumetric import LINEAR, Volumetric
 
 AXES_MAX = 32
@@ -120,6 +121,16 @@ class Axis:
     reserved : mapping of str to int
         Kinds that the axis activates without a table that acts → entries the controller reserves for one: a table may
         come by an update.
+    by_kind : Compensation
+        More compensations, each by the name of its kind.
+
+    Examples
+    --------
+    >>> from axcomp import Axis
+    >>> from axcomp.kinds import Backlash
+    >>> axis = Axis(1, "X", backlash_cycles=5, backlash=Backlash(0.01))
+    >>> axis.unit, axis.kinds, axis.cross
+    ('mm', ('backlash',), None)
     """
 
     number: int
@@ -174,11 +185,11 @@ class Axis:
         return next((one for one in self.compensations if one.kind == kind), None)
 
     def of(self, cls: builtins.type[AnyCompensation]) -> AnyCompensation | None:
-        """Return the compensation of a class, None if none acts."""
+        """Return the compensation of the class ``cls``, None if none acts."""
         return next((one for one in self.compensations if isinstance(one, cls)), None)
 
     def having(self, compensation: Compensation) -> Axis:
-        """Return the same axis with a compensation, in the place of one of its kind."""
+        """Return the same axis with ``compensation`` in the place of one of its kind."""
         return replace(self, compensations=(*self.compensations, compensation))
 
     @property
@@ -213,14 +224,14 @@ class Machine:
     volumetric: tuple[Volumetric, ...] = ()
 
     def index_of(self, number: int) -> int:
-        """Return the place in ``axes`` of the axis with a logical number; KeyError if there is none."""
+        """Return the place in ``axes`` of the axis with the logical ``number``; KeyError if there is none."""
         for index, axis in enumerate(self.axes):
             if axis.number == number:
                 return index
         raise KeyError(number)
 
     def numbered(self, number: int) -> Axis:
-        """Return the axis with a logical number; KeyError if there is none."""
+        """Return the axis with the logical ``number``; KeyError if there is none."""
         return self.axes[self.index_of(number)]
 
     def axis(self, name: str) -> Axis:
@@ -231,13 +242,13 @@ class Machine:
         raise KeyError(name)
 
     def members(self, volumetric: Volumetric) -> dict[int, str]:
-        """Return place in ``axes`` → letter of the axes that take part; gantry slaves have their master's letter."""
+        """Return place in ``axes`` → letter of the axes of ``volumetric``; gantry slaves have their master's letter."""
         letters = {number: letter for letter, number in volumetric.axes}
         leaders = [axis.number if axis.number in letters else axis.gantry_master for axis in self.axes]
         return {place: letters[number] for place, number in enumerate(leaders) if number in letters}
 
     def corrected_by(self, volumetric: Volumetric) -> frozenset[int]:
-        """Return the numbers of the axes that a volumetric compensation corrects: X, Y, Z and their gantry slaves."""
+        """Return the numbers of the axes that ``volumetric`` corrects: X, Y, Z and their gantry slaves."""
         members = self.members(volumetric)
         return frozenset(self.axes[place].number for place, letter in members.items() if letter in LINEAR)
 
@@ -253,6 +264,16 @@ class Machine:
                 for letter in table.arguments:
                     found.setdefault(numbers[letter], set()).update(table.positions(letter))
         return {number: sorted(positions) for number, positions in found.items()}
+
+    def _repr_html_(self) -> str:
+        """Return its axes and what acts on them as a table, for notebooks."""
+        rows = []
+        for axis in self.axes:
+            kinds = [one.kind for one in axis.compensations]
+            kinds += [f"volumetric[{one.index}]" for one in self.volumetric if axis.number in self.corrected_by(one)]
+            counted = axis.type.name.lower() + ("" if axis.modulo is None else ", modulo")
+            rows.append([str(axis.number), axis.name, counted, ", ".join(kinds) or "none"])
+        return as_html(["number", "axis", "type", "compensations"], rows, caption=f"Machine of {len(self.axes)} axes")
 
     def __repr__(self) -> str:
         return "Machine(\n" + "".join(f"  {part!r},\n" for part in (*self.axes, *self.volumetric)) + ")"

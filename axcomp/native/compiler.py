@@ -124,6 +124,12 @@ def compile_library(
     _compile([*compiler, *FLAGS, *PLATFORMS[platform].flags, *flags], sources, output, linking)
 
 
+def compile_wasm(sources: Sequence[Path], output: Path) -> None:
+    """Compile C sources with zig into a WebAssembly module that needs nothing of its host; raises as the above."""
+    linking = ["-mexec-model=reactor", "-Wl,-s", "-Wl,--export-dynamic"]
+    _compile([*zig("wasm32-wasi"), *FLAGS], sources, output, linking)
+
+
 def compile_program(
     sources: Sequence[Path], output: Path, *, compiler: Sequence[str], flags: Sequence[str] = ()
 ) -> None:

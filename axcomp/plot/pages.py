@@ -13,6 +13,7 @@ from html import escape
 from matplotlib.figure import Figure
 
 from .. import __version__
+from ..model import as_html
 from .content import Cell, Content, Records
 from .interactive import script
 from .style import embedded, printed
@@ -135,11 +136,7 @@ def overview(contents: Sequence[Content]) -> Records:
 
 def html_table(records: Records, kind: str = "") -> str:
     """Return numbers as an HTML table that scrolls where it is too wide; ``kind``: its class, ``text`` or none."""
-    head = "".join(f"<th>{escape(column)}</th>" for column in records.columns)
-    rows = ("".join(f"<td>{escape(shown(cell))}</td>" for cell in row) for row in records.rows)
-    body = "".join(f"<tr>{row}</tr>" for row in rows)
-    classed = f' class="{kind}"' if kind else ""
-    return f'<div class="wide"><table{classed}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+    return as_html(records.columns, ([shown(cell) for cell in row] for row in records.rows), kind)
 
 
 def shown(cell: Cell) -> str:

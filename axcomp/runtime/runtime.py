@@ -9,6 +9,7 @@ import copy
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from ..kernel import (
     ERROR_SWITCH,
@@ -76,17 +77,20 @@ class Runtime:
         self.tables, self.pool = compile_tables(machine, cycle_time)
         self._identity: int | None = None
         self._volumetrics = {volumetric.index for volumetric in machine.volumetric}
-        self.inputs = initial_inputs(self.tables)
-        self.state = zero(State)
-        self.outputs = zero(Outputs)
-        del self.state.axis[self.tables.axis_count :]
-        del self.state.motion.axis[self.tables.axis_count :]
-        del self.outputs.axis[self.tables.axis_count :]
-        del self.state.volumetric[self.tables.volumetrics :]
-        del self.outputs.volumetric[self.tables.volumetrics :]
+        self.state, self.inputs, self.outputs = self._records()
         self.start_time = 0.0
         self.cycles = 0
         self._told: set[str] = set()
+        self._tellable: tuple[Machine, list[tuple[int, int | None, str]]] | None = None
+
+    def _records(self) -> tuple[State, Inputs, Outputs]:
+        """Return records for a machine of this size."""
+        state, outputs = zero(State), zero(Outputs)
+        for axes in (state.axis, state.motion.axis, outputs.axis):
+            del axes[self.tables.axis_count :]
+        for volumetrics in (state.volumetric, outputs.volumetric):
+            del volumetrics[self.tables.volumetrics :]
+        return state, initial_inputs(self.tables), outputs
 
     def begin(self, time: float = 0.0) -> None:
         """Set the clock and compute the outputs of the first cycle without running it (end of initialization)."""
@@ -120,6 +124,16 @@ class Runtime:
         self.start_time = clock[0]
         self.cycles = int(clock[1])
 
+    def keep(self) -> tuple[Any, ...]:
+        """Return everything that changes, new lists too, for ``take`` of a runtime made as this one was; it pickles."""
+        return self.machine, self.tables, self.pool, set(self._told), self.save()
+
+    def take(self, kept: tuple[Any, ...]) -> None:
+        """Go on where another runtime stood."""
+        self.machine, tables, pool, told, snapshot = kept
+        self.tables, self.pool, self._told, self._identity = copy.deepcopy(tables), copy.copy(pool), set(told), None
+        self.restore(snapshot)
+
     def _machine_identity(self) -> int:
         if self._identity is None:
             tables = self.tables
@@ -129,12 +143,12 @@ class Runtime:
 
     def notices(self) -> Iterator[str]:
         """Yield, once each, what the machine's user should know about the motion so far."""
-        for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
-            found = [kind.notice for kind in kinds_of(axis) if has_notice(kind.number, state.compensation)]
-            if state.error == ERROR_SWITCH:
-                found.append(NO_COMMAND)
-            for notice in (f"axis {axis.name}: {text}" for text in found):
-                if notice not in self._told:
+        if not self._tellable or self._tellable[0] is not self.machine:
+            self._tellable = self.machine, list(_tellable(self.machine))
+        for index, number, notice in self._tellable[1]:
+            if notice not in self._told:
+                axis = self.state.axis[index]
+                if axis.error == ERROR_SWITCH if number is None else has_notice(number, axis.compensation):
                     self._told.add(notice)
                     yield notice
 
@@ -204,6 +218,15 @@ class Runtime:
         self.outputs.volumetric[index].active = False
         self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None
+
+
+def _tellable(machine: Machine) -> Iterator[tuple[int, int | None, str]]:
+    """Yield what there can be to tell: index of an axis, number of a kind, None: of its switches, and the notice."""
+    for index, axis in enumerate(machine.axes):
+        for kind in kinds_of(axis):
+            if kind.notice:
+                yield index, kind.number, f"axis {axis.name}: {kind.notice}"
+        yield index, None, f"axis {axis.name}: {NO_COMMAND}"
 
 
 __all__ = ["Runtime", "SnapshotError", "UpdateError", "initial_inputs"]

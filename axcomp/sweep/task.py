@@ -100,11 +100,8 @@ def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
     parameters = {s.name: value for s, value in run.values.items() if s.kind == "parameter"}
     cycle_time = float(parameters.get("cycle_time", job.cycle_time))
     duration = parameters.get("duration", job.duration)
-    trajectory = job.trajectory
-    if isinstance(trajectory, Motion):
-        own = {name: float(parameters[name]) for name in LIMITS if name in parameters}
-        trajectory = replace(trajectory, limits=replace(trajectory.limits, **own) if own else trajectory.limits)
-    columns = trajectory.sampled(cycle_time, None if duration is None else float(duration))
+    own = tuple((name, float(parameters[name])) for name in LIMITS if name in parameters)
+    columns = _columns(job, own, cycle_time, None if duration is None else float(duration))
     if source.is_fmu:
         starts = {name: value for name, value in parameters.items() if name not in PARAMETERS}
         return _simulate_fmu(source, run, columns, starts, cycle_time)
@@ -119,7 +116,16 @@ def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
     engine = Engine(machine, cycle_time)
     inputs = {variable.name for variable in engine.variables if variable.causality == "input"}
     given = _given(run, columns, inputs, cycle_time, engine.modulo)
-    return {**given, **engine.run(given).values}, cycle_time, findings
+    return {**given, **engine.run(given).columns}, cycle_time, findings
+
+
+@lru_cache(MACHINES_KEPT)
+def _columns(job: Job, own: tuple[tuple[str, float], ...], cycle_time: float, duration: float | None) -> Columns:
+    """Return the trajectory with limits of a run's ``own``; runs that have none share it."""
+    trajectory = job.trajectory
+    if own and isinstance(trajectory, Motion):
+        trajectory = replace(trajectory, limits=replace(trajectory.limits, **dict(own)))
+    return trajectory.sampled(cycle_time, duration)
 
 
 def _given(run: Run, columns: Columns, known: set[str], cycle_time: float, modulo: Mapping[str, float]) -> Columns:

@@ -6,6 +6,7 @@ from types import ModuleType
 import pytest
 
 from axcomp.cli import COMMANDS, main
+from axcomp.model import EXTRAS
 
 
 def test_the_help_lists_every_command(capsys: pytest.CaptureFixture[str]) -> None:
@@ -24,7 +25,7 @@ def test_the_help_names_the_commands_that_a_missing_package_hides(
         return import_module(name, package)
 
     monkeypatch.setattr("axcomp.cli.import_module", importing)
-    monkeypatch.setattr("axcomp.cli.find_spec", lambda name: None if name == "openpyxl" else object())
+    monkeypatch.setattr("axcomp.cli.missing", lambda packages: [*packages] if packages == EXTRAS["tables"] else [])
     with pytest.raises(SystemExit, match="0"):
         main(["--help"])
     assert "pip install 'axcomp[workbench]' there are also: diagnose." in " ".join(capsys.readouterr().out.split())

@@ -59,11 +59,11 @@ def test_the_results_are_those_of_the_engine(folder: Path, capsys: pytest.Captur
 @pytest.mark.parametrize(
     ("program", "message"),
     [
-        ("", "program.csv:1: the first line must name the columns"),
-        ("X.setpoint,X.setpoint\n1,2\n", "program.csv:1: the first line must name the columns, each once"),
-        ("X.setpoint\n", "there is no row"),
-        ("X.setpoint\n1\n2,3\n", "program.csv:3: 2 cells, but 1 columns"),
-        ("X.setpoint\n1\none\n", "program.csv:3: X.setpoint: 'one' is no number"),
+        ("", "program.csv: There is no row of inputs in it."),
+        ("X.setpoint,X.setpoint\n1,2\n", "program.csv:1: Every column needs a name of its own."),
+        ("X.setpoint\n", "There is no row"),
+        ("X.setpoint\n1\n2,3\n", "program.csv:3: There are 2 cells for 1 columns."),
+        ("X.setpoint\n1\none\n", "program.csv:3: 'one' is no number, as X.setpoint has to be."),
         ("Q.setpoint\n1\n", "program.csv:1: Q.setpoint is no input"),
         ("time,X.setpoint\n0,1\n0.001,1\n0.003,1\n", "program.csv:3: the rows are not equally far apart"),
         ("time,X.setpoint\n0,1\n0,1\n", "not equally far apart"),

@@ -34,7 +34,7 @@ def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("checkout")
     for name in ("axcomp", "fmu_src", "models"):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("pyproject.toml", "README.md", "build_fmu.py"):
+    for name in ("pyproject.toml", "README.md", "LICENSE", "build_fmu.py"):
         shutil.copy(ROOT / name, folder)
     (folder / "docs").mkdir()
     shutil.copy(ROOT / "docs" / "findings.md", folder / "docs")

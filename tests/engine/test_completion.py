@@ -42,7 +42,7 @@ def test_with_the_trajectory_known_the_look_ahead_is_that_of_a_long_delay(
     currents = []
     for cycles in (delay, 20):
         machine = of(Friction((1.0, 100.0), (1.0, 3.0), 0.8, 0.0, lookahead, cycles))
-        currents.append(Engine(machine, T).run(given_).values["X.current"][cycles:])
+        currents.append(Engine(machine, T).run(given_).columns["X.current"][cycles:])
     n = len(velocity) - 20
     # The delay line holds the same values, only later: what the last cycles see is not known to it.
     assert currents[0][:n] == pytest.approx(currents[1][:n], abs=1e-12)
@@ -53,7 +53,7 @@ def test_a_slow_down_that_goes_on_the_same_way_is_not_weighted() -> None:
     run = Engine(of(Friction((1.0, 100.0), (1.0, 3.0), 1.0, 0.0, 4)), T).run(
         {"X.setpoint": np.cumsum(velocity) * T, "X.velocity": velocity}
     )
-    assert run.values["X.current"] == pytest.approx(np.interp(velocity, [1.0, 100.0], [1.0, 3.0]), abs=1e-12)
+    assert run.columns["X.current"] == pytest.approx(np.interp(velocity, [1.0, 100.0], [1.0, 3.0]), abs=1e-12)
 
 
 def test_velocity_and_acceleration_follow_from_setpoints_by_backward_differences_and_this_is_told() -> None:
@@ -66,8 +66,8 @@ def test_velocity_and_acceleration_follow_from_setpoints_by_backward_differences
     typed = {"X.setpoint": setpoint, "X.velocity": velocity, "X.acceleration": acceleration}
     said = Engine(machine, T).run(typed)
     for name in ("X.current", "Y.crosstalk.correction"):
-        assert np.abs(derived.values[name]).max() > 0.0
-        assert derived.values[name].tolist() == said.values[name].tolist()
+        assert np.abs(derived.columns[name]).max() > 0.0
+        assert derived.columns[name].tolist() == said.columns[name].tolist()
     assert [notice for notice in derived.notices if "X.velocity, X.acceleration not given" in notice]
     assert said.notices == ()
 
@@ -77,8 +77,8 @@ def test_on_a_modulo_axis_the_velocity_goes_on_over_the_seam() -> None:
     counted = np.arange(100) * 0.05 + 358.0
     folded = Engine(machine, T).run({"C.setpoint": np.mod(counted, 360.0)})
     whole = Engine(machine, T).run({"C.setpoint": counted})
-    assert folded.values["C.current"] == pytest.approx(whole.values["C.current"], abs=1e-9)
-    assert folded.values["C.current"][-1] > 0.8
+    assert folded.columns["C.current"] == pytest.approx(whole.columns["C.current"], abs=1e-9)
+    assert folded.columns["C.current"][-1] > 0.8
 
 
 def test_a_run_goes_on_where_the_last_one_ended() -> None:
@@ -86,8 +86,8 @@ def test_a_run_goes_on_where_the_last_one_ended() -> None:
     friction = Friction((1.0, 100.0), (1.0, 3.0), 1.0, 0.01)
     whole = Engine(of(friction), T).run({"X.setpoint": setpoint})
     engine = Engine(of(friction), T)
-    parts = [engine.run({"X.setpoint": part}).values["X.current"] for part in np.split(setpoint, [100, 101])]
-    assert np.concatenate(parts).tolist() == whole.values["X.current"].tolist()
+    parts = [engine.run({"X.setpoint": part}).columns["X.current"] for part in np.split(setpoint, [100, 101])]
+    assert np.concatenate(parts).tolist() == whole.columns["X.current"].tolist()
 
 
 def currents(fmu: str, setpoints: list[float], derive: bool) -> list[float]:
@@ -102,6 +102,6 @@ def test_an_fmu_derives_motion_where_it_is_asked_to(package, tmp_path) -> None:
     write_machine(of(friction), tmp_path / "lists")
     fmu = package(tmp_path / "lists", tmp_path / "axcomp.fmu", cycle_time=T).path
     setpoints = (np.cumsum(curved(11, 60)) * T).tolist()
-    expected = Engine(of(friction), T).run({"X.setpoint": setpoints}).values["X.current"]
+    expected = Engine(of(friction), T).run({"X.setpoint": setpoints}).columns["X.current"]
     assert in_child(currents, fmu, setpoints, True) == expected.tolist()
     assert in_child(currents, fmu, setpoints, False) == [0.0] * 60

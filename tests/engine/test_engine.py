@@ -64,7 +64,7 @@ def test_two_runs_continue_each_other() -> None:
     engine = Engine(machine())
     first = engine.run({name: values[:250] for name, values in inputs.items()})
     second = engine.run({name: values[250:] for name, values in inputs.items()})
-    for name, values in whole.values.items():
+    for name, values in whole.items():
         assert np.array_equal(values, np.concatenate([first[name], second[name]]))
     assert np.array_equal(whole.time, np.concatenate([first.time, second.time]))
 
@@ -98,8 +98,8 @@ def test_a_result_written_as_csv_reads_back_to_the_same_bits(tmp_path: Path) -> 
     result = Engine(machine()).run(trajectory(300))
     result.to_csv(tmp_path / "result.csv")
     table = np.genfromtxt(tmp_path / "result.csv", delimiter=",", names=True, deletechars="")
-    assert table.dtype.names == ("time", *result.values)
-    for name, values in result.values.items():
+    assert table.dtype.names == ("time", *result)
+    for name, values in result.items():
         assert np.array_equal(table[name], values.astype(float))
 
 

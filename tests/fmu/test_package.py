@@ -31,7 +31,8 @@ def test_building_twice_gives_the_same_bytes(lists: Path, tmp_path: Path) -> Non
     first, second = contents(one), contents(two)
     assert json.loads(first.pop("resources/axcomp.json"))["lists"] == "machine"
     assert json.loads(second.pop("resources/axcomp.json"))["lists"] == "machine/hochlauf.lis"
-    assert first.pop("modelDescription.xml") != second.pop("modelDescription.xml")
+    for name in ("modelDescription.xml", "documentation/bom.cdx.json"):
+        assert first.pop(name) != second.pop(name)
     assert first == second
     again = package_axcomp(lists, tmp_path / "again.fmu").path
     assert one.read_bytes() == again.read_bytes()
@@ -52,7 +53,13 @@ def test_the_guid_follows_the_model_description(fmu: Path, lists: Path, tmp_path
         package_axcomp(lists, tmp_path / "alone.fmu", external_tool=False).path,
     ]
     named = dict.fromkeys(
-        ("modelDescription.xml", "documentation/index.html", "terminalsAndIcons/terminalsAndIcons.xml"), b""
+        (
+            "modelDescription.xml",
+            "documentation/bom.cdx.json",
+            "documentation/index.html",
+            "terminalsAndIcons/terminalsAndIcons.xml",
+        ),
+        b"",
     )
     first, *rest = (contents(path) | named for path in (fmu, *others))
     assert rest == [first, first]
@@ -131,7 +138,7 @@ def test_a_cycle_time_must_be_one(lists: Path, tmp_path: Path) -> None:
 
 def test_a_missing_pythonfmu_is_named(lists: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
-    with pytest.raises(BuildError, match="pythonfmu is not installed: pip install"):
+    with pytest.raises(BuildError, match=r"needs pythonfmu: pip install 'axcomp\[python\]'"):
         package_axcomp(lists, tmp_path / "x.fmu")
 
 

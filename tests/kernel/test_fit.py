@@ -170,5 +170,9 @@ def compiled(model: str) -> Compiled:
     """Return fresh tables of a model, and a pool that is guarded."""
     if model not in _COMPILED:
         _COMPILED[model] = compile_tables(read_machine(MODELS / model).machine)
+        # As many as C has: a number of axes that is too large is found out by what is behind the last.
+        whole, tables = zero(Tables), _COMPILED[model].tables
+        tables.axis += whole.axis[len(tables.axis) :]
+        tables.volumetric += whole.volumetric[len(tables.volumetric) :]
     tables, pool = _COMPILED[model]
     return Compiled(copy.deepcopy(tables), Guarded(pool))

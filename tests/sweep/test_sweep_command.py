@@ -12,7 +12,7 @@ from axcomp.cli import main
     [
         (["none.toml", "--output", "r.csv"], "none.toml: the specification cannot be read"),
         (["s.toml", "--output", "r.xlsx"], "r.xlsx must end in .parquet or .csv"),
-        (["s.toml", "--output", "nowhere/r.csv"], "nowhere is no folder"),
+        (["s.toml", "--output", "nowhere/r.csv"], "there is no folder nowhere for r.csv"),
         (["s.toml", "--output", "r.csv", "--workers", "0"], "at least one worker"),
         (["s.toml", "--output", "r.csv", "--plot", "p.png"], "--plot needs --x and --y"),
         (["s.toml", "--output", "r.csv"], "s.toml: machine: expected the path"),

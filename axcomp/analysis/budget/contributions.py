@@ -8,7 +8,7 @@ these add up to the correction of all errors together, up to products of errors:
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ...engine import Array, Columns, Engine, InputFile, Result, TcpModel, completed
 from ...interface import with_causality
 from ...kinds import KINDS
-from ...model import ERRORS, LETTERS, LINEAR, Machine, Volumetric, shown
+from ...model import ERRORS, LETTERS, LINEAR, Machine, Tabular, Tabulated, Volumetric, shown
 
 POINTS = 200
 """Points of the path at which volumetric errors are evaluated, if nothing else is asked for."""
@@ -91,7 +91,7 @@ class Poses:
 
 
 @dataclass(frozen=True, eq=False)
-class Budget:
+class Budget(Tabular, Mapping[str, Array]):
     """The contributions of a machine along a path.
 
     Attributes
@@ -125,6 +125,24 @@ class Budget:
     currents: Mapping[str, Array]
     settled: Flags
     poses: tuple[Poses, ...] = ()
+
+    def __getitem__(self, axis: str) -> Array:
+        """Return the correction of an axis, shape (cycles,), µm or ″."""
+        return self.totals[axis]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.totals)
+
+    def __len__(self) -> int:
+        return len(self.totals)
+
+    def tabulated(self) -> Tabulated:
+        """Return correction and contributions of every axis at the points."""
+        columns = {f"{axis}.correction": total[self.points] for axis, total in self.totals.items()}
+        for one in self.contributions:
+            columns[f"{one.axis}.{one.source}"] = one.values[np.searchsorted(one.cycles, self.points)]
+        units = {name: self.units[name.partition(".")[0]] for name in columns}
+        return Tabulated("time", self.time[self.points], columns, {"time": "s", **units})
 
     @property
     def units(self) -> dict[str, str]:
@@ -225,21 +243,21 @@ def budget_of(
         columns.pop("tool_length", None)
     columns = completed(columns, {v.name for v in with_causality(engine.variables, "input")}, cycle_time, engine.modulo)
     result = engine.run(columns)
-    at = np.unique(np.linspace(0, len(result) - 1, min(max(points, 2), len(result))).round().astype(np.int64))
+    at = np.unique(np.linspace(0, result.cycles - 1, min(max(points, 2), result.cycles)).round().astype(np.int64))
     found: list[Contribution] = []
     totals, currents, setpoints = {}, {}, {}
     for index, axis in enumerate(machine.axes):
         factor = shown(axis.unit).factor
         names = {v.quantity: v.name for v in engine.variables if v.axis == index}
         totals[axis.name] = factor * result[names["correction"]]
-        setpoints[axis.name] = columns.get(names["setpoint"], np.zeros(len(result)))
+        setpoints[axis.name] = columns.get(names["setpoint"], np.zeros(result.cycles))
         for kind in KINDS:
             name = names.get(f"{kind}.correction")
             if name is not None and result[name].any():
-                found.append(Contribution(axis.name, kind, np.arange(len(result)), factor * result[name]))
+                found.append(Contribution(axis.name, kind, np.arange(result.cycles), factor * result[name]))
         if axis.friction is not None:
             currents[axis.name] = result[names["current"]]
-    lengths = columns.get("tool_length", np.zeros(len(result)))[at]
+    lengths = columns.get("tool_length", np.zeros(result.cycles))[at]
     poses = tuple(_poses(machine, one, setpoints, lengths, at) for one in machine.volumetric)
     joint = {name: np.zeros(len(at)) for one in poses for name in one.names}
     settled = np.ones(len(at), dtype=bool)

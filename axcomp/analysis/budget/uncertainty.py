@@ -17,15 +17,13 @@ without it, those that have a table of the error. All are normally distributed a
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...engine import SheetError, number, read_sheets
 from ...kinds import KINDS, tables_of
-from ...lists import decode
 from ...model import ERRORS, AxisType, Interpolation, Machine, is_angle
 
 LENGTHS = {"mm": 1.0, "um": 1e-3, "nm": 1e-6, "m": 1e3}
@@ -70,18 +68,12 @@ class Uncertainty:
 def read_uncertainties(path: Path, machine: Machine) -> tuple[Uncertainty, ...]:
     """Read a table of uncertainties for a machine; UncertaintyError with file, line and what was expected."""
     try:
-        text = decode(path.read_bytes())
-    except OSError as error:
-        raise UncertaintyError(f"{path}: The file cannot be read: {error.strerror or error}.") from None
-    if text is None:
-        raise UncertaintyError(f"{path}: The file is no text.")
+        sheets = read_sheets(path)
+    except SheetError as error:
+        raise UncertaintyError(str(error)) from None
     found: list[Uncertainty] = []
     header: list[str] = []
-    separator = ";" if ";" in text else ","
-    for line, cells in enumerate(csv.reader(io.StringIO(text), delimiter=separator), 1):
-        content = [cell.strip() for cell in cells]
-        if not any(content) or content[0].startswith("#"):
-            continue
+    for line, content in ((row.line, row.cells) for sheet in sheets for row in sheet.rows):
         try:
             if not header:
                 header = _header(content)
@@ -114,10 +106,10 @@ def _row(row: dict[str, str], machine: Machine) -> list[Uncertainty]:
     if unit not in units:
         raise ValueError(f"{unit} is no unit of {name}; expected one of {', '.join(units)}.")
     written = row.get(COLUMNS[1], "")
-    try:
-        value = float(written) * units[unit]
-    except ValueError:
-        raise ValueError(f"{written!r} is no number, as {COLUMNS[1]} has to be.") from None
+    given = number(written)
+    if given is None:
+        raise ValueError(f"{written!r} is no number, as {COLUMNS[1]} has to be.")
+    value = given * units[unit]
     if not 0.0 <= value < math.inf:
         raise ValueError(f"{COLUMNS[1]} is at least 0, not {written}.")
     correlation = row.get("correlation") or COMMON

@@ -22,7 +22,7 @@ from ...lists import (
     read_etalon,
     read_isg_csv,
 )
-from ...model import AXIS_NUMBERS, COMPENSATIONS_MAX, DESCRIPTION, ERRORS, FILES_MAX, LETTERS, Interpolation
+from ...model import AXIS_NUMBERS, COMPENSATIONS_MAX, DESCRIPTION, ERRORS, FILES_MAX, LETTERS, Interpolation, sentence
 
 FILE_NAME, MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
 """P-STUP-00101 and P-STUP-00100."""
@@ -150,7 +150,7 @@ def write_named_diagnoses(reading: Reading, index: int | None = None) -> Iterato
         from .files import Written, write_diagnoses
     except ModuleNotFoundError as error:
         names = ", ".join(source.diagnosis_file for source in sources)
-        yield f"{names} is not written without {error.name}: pip install 'axcomp[workbench]'."
+        yield f"{names} is not written: {sentence(error.name or '', 'tables', 'it')}."
         return
     for result in write_diagnoses(sources, reading):
         if isinstance(result, Written):

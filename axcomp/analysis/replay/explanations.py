@@ -32,14 +32,14 @@ class Bench:
         variables = variables_of(self.machine)
         self.names = {(v.axis, v.quantity): v.name for v in variables if v.axis is not None}
         self.result = Engine(self.machine, self.cycle_time).run(self.trajectory)
-        self.outputs: Outputs = self.result.values
+        self.outputs: Outputs = self.result.columns
 
     def run(self, machine: Machine | None = None, inputs: Mapping[str, Array] | None = None) -> Outputs:
         """Return the outputs of another machine, or with other inputs."""
         engine = Engine(machine or self.machine, self.cycle_time)
         known = {variable.name for variable in engine.variables}
         given = {name: values for name, values in {**self.trajectory, **(inputs or {})}.items() if name in known}
-        return engine.run(given).values
+        return engine.run(given).columns
 
     def having(self, axis: Axis) -> Machine:
         """Return the machine with another axis in the place of the one with the same number."""
@@ -49,7 +49,7 @@ class Bench:
     def readings(self, place: int, wanted: Iterable[str]) -> Iterator[tuple[str, Outputs]]:
         """Yield other readings of the lists and the manuals in words, with wanted outputs of an axis by them."""
         axis = self.machine.axes[place]
-        nothing = np.zeros(len(self.result))
+        nothing = np.zeros(self.result.cycles)
         axes = [*_other_axes(axis), *(other for one in self.machine.axes for other in _folding(one))]
         machines = [*((text, self.having(other)) for text, other in axes), *self._volumes(place)]
         others = ((text, self.run(machine)) for text, machine in machines)

@@ -43,7 +43,7 @@ def write_expected(model: Path, folder: Path) -> Path:
     inputs = read_csv(folder / INPUT)
     result = Engine(model).run(inputs)
     columns = {"time": inputs["time"]}
-    for name, values in result.values.items():
+    for name, values in result.items():
         columns[name] = np.concatenate([values[:1], values[:-1]])
     return _write(folder / EXPECTED, columns)
 

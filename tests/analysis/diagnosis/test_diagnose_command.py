@@ -138,7 +138,7 @@ def test_a_missing_list_or_file_fails_and_the_rest_is_written(tmp_path: Path, ca
 
 @pytest.mark.usefixtures("hidden")
 def test_without_openpyxl_a_sentence_says_what_to_install(tmp_path: Path, capsys: Capture) -> None:
-    with pytest.raises(SystemExit, match=r"diagnose needs openpyxl: pip install 'axcomp\[workbench\]'"):
+    with pytest.raises(SystemExit, match=r"diagnose needs openpyxl: pip install 'axcomp\[tables\]'"):
         main(["diagnose", str(lists_naming(tmp_path, "d.xlsx"))])
     assert not (tmp_path / "d.xlsx").exists()
     assert capsys.readouterr().out == ""
@@ -164,7 +164,7 @@ def test_a_build_without_such_a_list_writes_none(tmp_path: Path) -> None:
 def test_a_build_without_openpyxl_says_so_and_succeeds(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "d.xlsx")
     assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
-    assert "note: d.xlsx is not written without openpyxl: pip install 'axcomp[workbench]'" in capsys.readouterr().err
+    assert "note: d.xlsx is not written: it needs openpyxl: pip install 'axcomp[tables]'" in capsys.readouterr().err
     assert not (folder / "d.xlsx").exists()
 
 

@@ -8,7 +8,7 @@ import pytest
 from judging import THREE_AXIS, codes, example, judge, leadscrew_machine, measured, said
 
 from axcomp.analysis.judgement import sign_of
-from axcomp.convert import tables_of
+from axcomp.conversion import tables_of
 from axcomp.kinds import Cross, Leadscrew
 from axcomp.lists import read_machine
 from axcomp.measurement import Positioning

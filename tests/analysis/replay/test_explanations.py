@@ -35,7 +35,7 @@ def test_an_inverted_sign_is_found(tmp_path: Path, name: str, kind: str, output:
 def test_a_kind_that_is_off_is_found(tmp_path: Path, name: str, kind: str, output: str) -> None:
     machine, columns = example()
     other = Engine(having(machine, name, **{kind: None})).run(columns)
-    trace = {**columns, output: other.values.get(output, np.zeros(len(other)))}
+    trace = {**columns, output: other.get(output, np.zeros(other.cycles))}
     assert best(compared(tmp_path, machine, trace)[output]) == f"the {kind} compensation off"
 
 

@@ -6,7 +6,7 @@ import pytest
 from drawn_tables import changed
 from hypothesis import example, given, settings, strategies as st
 
-from axcomp.convert import (
+from axcomp.conversion import (
     FORMATS,
     CannotHoldError,
     CompensationTable,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from axcomp.convert import (
+from axcomp.conversion import (
     CompensationTable,
     Options,
     machine_with,

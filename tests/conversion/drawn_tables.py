@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from axcomp.convert import CompensationTable
+from axcomp.conversion import CompensationTable
 
 UNITS_PER_MM = 10_000
 HALF_RESOLUTION = {"mm": 0.05, "deg": 0.18}

@@ -6,7 +6,7 @@ import pytest
 from drawn_tables import HALF_RESOLUTION, changed, tables
 from hypothesis import given, settings, strategies as st
 
-from axcomp.convert import FORMATS, CompensationTable, Options, largest_difference, machine_with, tables_of, written
+from axcomp.conversion import FORMATS, CompensationTable, Options, largest_difference, machine_with, tables_of, written
 
 HOLDS: dict[str, Callable[[], st.SearchStrategy[CompensationTable]]] = {
     "enc-comp": lambda: tables(even=True, bilateral=False, cross=False),
