@@ -54,8 +54,7 @@ def variables_of(
     cycle_time : float
         Start value of the parameter of that name, s.
     types : str
-        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, for importers that
-        take all as Real.
+        ``own``, or ``real``: Booleans and Integers are Real, Strings left out, for importers that take all as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
     every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))

@@ -22,6 +22,7 @@ from axcomp.demo.examples import INPUT, read_csv
 from axcomp.engine import Engine
 from axcomp.fmu import BuildError, NoCompilerError
 from axcomp.model import models
+from axcomp.plant import Plant
 
 SCHEMAS = Path(ssp.__file__).parent / "schema"
 SSD = "{http://ssp-standard.org/SSP1/SystemStructureDescription}"
@@ -122,6 +123,15 @@ def test_fmpy_runs_it(machine: Path, expected: np.ndarray[Any, Any]) -> None:
     for k, row in enumerate(rows):
         computed = engine.step(row)
         assert {name: computed[name] for name in outputs} == {name: found[f"axcomp.{name}"][k] for name in outputs}
+    plant = Plant.from_file(models() / "three_axis" / "plant.json")
+    plant.rest_at([float(read_csv(models() / "three_axis" / INPUT)[f"{axis}.setpoint"][0]) for axis in AXES])
+    for k in range(STEPS):
+        setpoints, currents = (
+            [found[f"plant.{axis}.{name}"][k - 1] if k else 0.0 for axis in AXES] for name in ("setpoint", "current")
+        )
+        plant.step(setpoints, currents, CYCLE)
+        measured = [drive.position for drive in plant.drives]
+        assert measured == [found[f"plant.{axis}.measured_position"][k] for axis in AXES]
     # FMPy lets the first step begin with zeros: the drives have settled after 0.3 s.
     for axis, column in zip(AXES, expected.T, strict=True):
         assert np.allclose(found[f"plant.{axis}.measured_position"][300:], column[300:], atol=0.1)

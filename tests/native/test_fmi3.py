@@ -28,8 +28,9 @@ from axcomp.cli import main
 from axcomp.demo.examples import EXPECTED, INPUT, TRAJECTORIES, read_csv
 from axcomp.engine import Engine
 from axcomp.fmu import NoCompilerError, package_native, write_image
+from axcomp.kinds import Cross
 from axcomp.lists import write_machine
-from axcomp.model import models
+from axcomp.model import Machine, models
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema" / "fmi3"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -219,7 +220,7 @@ CHANGED = {
 }
 
 
-def changed_machine() -> Any:
+def changed_machine() -> Machine:
     x, y, c = three_axes().axes
     new = CHANGED
     screw = replace(x.leadscrew, positive=new["X.leadscrew.positive"], positions=new["X.leadscrew.positions"])
@@ -264,6 +265,52 @@ def test_a_calibration_blends_in_as_an_update_does_in_every_bit(
     expected = in_child(updated, native_fmu, rows, at, str(path))
     assert in_child(calibrated, third, rows, at, in_steps=False) == expected
     assert expected != in_child(updated, native_fmu, rows, 200, str(path))
+
+
+def over_turns(shift: float) -> Machine:
+    """The cross compensation of Y has the axis C for a master, which counts modulo; its table spans half a turn."""
+    x, y, c = three_axes().axes
+    cross = Cross(3, (-90.0 + shift, 10.0, 90.0 + shift), (0.02, 0.0, 0.04), n_cycles=5)
+    return replace(three_axes(), axes=(x, replace(y, cross=cross), c))
+
+
+def shifted(fmu: Path, rows: list[dict[str, Any]], at: int) -> list[dict[str, Any]]:
+    with Host3(fmu) as host:
+        host.begin()
+        outputs = []
+        for k, row in enumerate(rows):
+            if k == at:
+                host.set({"Y_ACHSE.cross.positions": [-20.0, 10.0, 160.0]})
+            outputs.append(host.event(row))
+            host.step()
+        return outputs
+
+
+def test_positions_of_an_axis_that_counts_modulo_move_its_turn(native_fmu: Path, tmp_path: Path) -> None:
+    assert native_fmu
+    for name, shift in (("before", 0.0), ("after", 70.0)):
+        write_machine(over_turns(shift), tmp_path / name)
+    path = write_image(tmp_path / "after", tmp_path / "new.bin").path
+    second, third = (
+        package_native(tmp_path / "before", tmp_path / f"{fmi}.fmu", fmi=fmi).path for fmi in ("2.0", "3.0")
+    )
+    rows = trajectory(400)
+    expected = in_child(updated, second, rows, 20, str(path))
+    assert in_child(shifted, third, rows, 20) == expected
+
+
+def behind_an_event(fmu: Path) -> float:
+    with Host3(fmu) as host:
+        host.begin()
+        host.set({"X.setpoint": 50.0})
+        host.slave.updateDiscreteStates()
+        host.slave.enterStepMode()
+        corrected: float = host.get("X.corrected_setpoint")
+        return corrected
+
+
+def test_the_outputs_of_an_event_stay_when_it_is_over(third: Path) -> None:
+    assert in_child(behind_an_event, third) == Engine(three_axes()).step({"X.setpoint": 50.0})["X.corrected_setpoint"]
 
 
 def test_several_changes_in_one_event_are_as_good_as_one(third: Path) -> None:
