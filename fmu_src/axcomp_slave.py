@@ -47,9 +47,9 @@ class AxcompSlave(Fmi2Slave):
     def _tell(self, severity: Severity, text: str) -> None:
         self.log(text, STATUS[severity], CATEGORY[severity])
 
-    def setup_experiment(self, start_time: float, *_: Any) -> None:
-        """Take the start time."""
-        self._instance.set_up(start_time)
+    def setup_experiment(self, start_time: float, stop_time: float | None = None, *_: Any) -> None:
+        """Take start and stop time."""
+        self._instance.set_up(start_time, stop_time)
 
     def enter_initialization_mode(self) -> None:
         """Compute outputs whenever they are read."""
@@ -60,9 +60,8 @@ class AxcompSlave(Fmi2Slave):
         self._instance.exit_initialization()
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Run the cycles of a communication step."""
-        self._instance.do_step(current_time, step_size)
-        return True
+        """Run the cycles of a communication step; False, which pythonfmu makes fmi2Discard, where there are none."""
+        return self._instance.do_step(current_time, step_size) is not False
 
     get_real, get_integer, get_boolean, get_string = map(_getter, TYPES)
     set_real, set_integer, set_boolean, set_string = map(_setter, TYPES)

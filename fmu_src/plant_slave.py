@@ -114,7 +114,7 @@ class PlantSlave(Fmi2Slave):
                 self.tool_length = tool_length
 
     def _give_outputs(self) -> None:
-        values, true = self.values, self.plant.true
+        values, true, beyond = self.values, self.plant.true, self.plant.beyond
         for axis, drive in enumerate(self.plant.drives):
             at = v.BLOCK * axis
             values[at + v.TRUE_POSITION] = true[axis]
@@ -122,6 +122,7 @@ class PlantSlave(Fmi2Slave):
             values[at + v.VELOCITY] = drive.velocity
             values[at + v.MOTOR_CURRENT] = drive.current
             values[at + v.FOLLOWING_ERROR] = drive.lag
+            values[at + v.BEYOND] = beyond[axis]
         bodies = self.plant.bodies
         if bodies:
             tip, at = bodies.tip(self.tool_length), self.of_machine

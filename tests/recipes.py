@@ -40,7 +40,7 @@ class Checkout:
         for name in COPIED:
             source = ROOT / name
             if source.is_dir():
-                shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
+                shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__", "images"))
             else:
                 shutil.copy(source, folder / name)
 

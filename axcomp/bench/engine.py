@@ -1,24 +1,21 @@
-"""What the engine costs: a cycle, a trajectory, reading lists, memory."""
+"""What the engine costs: a cycle, a trajectory, memory."""
 
 from __future__ import annotations
 
 import math
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..engine import Engine
-from ..lists import read_machine, write_machine
 from ..model import Machine
 from ..native import SWITCH, compiled_kernel
 from ..runtime import Runtime
 from .clock import Sample, sample
-from .machines import largest_machine, machine_of
+from .machines import machine_of
 
 CYCLES = 2000
 AXES = (3, 8, 16, 32)
@@ -73,20 +70,6 @@ def _python_kernel() -> Iterator[None]:
         if before is not None:
             os.environ[SWITCH] = before
         compiled_kernel.cache_clear()
-
-
-def bench_lists(repeats: int) -> Iterator[Sample]:
-    """Measure reading the largest legal set of lists."""
-    with tempfile.TemporaryDirectory() as folder:
-        paths = write_machine(largest_machine(), folder)
-        lines = sum(path.read_bytes().count(b"\n") for path in paths)
-        yield sample(
-            f"reading the largest legal lists ({lines} lines)",
-            "s",
-            lambda: read_machine(Path(folder)),
-            repeats=min(repeats, 3),
-            goal=5.0,
-        )
 
 
 def bench_memory(machine: Machine, cycles: int) -> Iterator[Sample]:

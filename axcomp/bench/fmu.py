@@ -76,19 +76,21 @@ def _measure(path: str, repeats: int) -> tuple[list[float], list[float]]:
 
 
 def _steps(slave: FMU2Slave, description: Any) -> float:
-    """Run ``STEPS`` steps; every real and Boolean input is set and every output is read in each.
+    """Run ``STEPS`` steps; every input is set and every output is read in each.
 
     FMPy's functions are called without its checks in Python around them, which cost more than a native step.
     """
     size = float(description.defaultExperiment.stepSize)
-    component, set_real, set_boolean, do_step = (
-        slave.component,
-        slave.dll.fmi2SetReal,
-        slave.dll.fmi2SetBoolean,
-        slave.dll.fmi2DoStep,
+    component, dll = slave.component, slave.dll
+    set_real, set_boolean, set_integer, do_step = (
+        dll.fmi2SetReal,
+        dll.fmi2SetBoolean,
+        dll.fmi2SetInteger,
+        dll.fmi2DoStep,
     )
     reals, real_input = _values(description, "input", "Real")
     _, boolean_input = _values(description, "input", "Boolean")
+    _, integer_input = _values(description, "input", "Integer")
     outputs = [
         (getattr(slave.dll, f"fmi2Get{kind}"), *_values(description, "output", kind)[1])
         for kind in ("Real", "Boolean", "Integer")
@@ -99,6 +101,7 @@ def _steps(slave: FMU2Slave, description: Any) -> float:
         reals[:] = row
         set_real(component, *real_input)
         set_boolean(component, *boolean_input)
+        set_integer(component, *integer_input)
         do_step(component, instant, size, 0)
         for get, references, count, values in outputs:
             get(component, references, count, values)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from ..fmu import IMAGE
@@ -86,14 +86,11 @@ def plan_of(machine: Machine) -> str:
     """Return the plan that ``bench.c`` reads: step size, then the variables to set and to get."""
     inputs = [v for v in with_causality(variables_of(machine), "input") if v.name != "reload"]
     outputs = with_causality(variables_of(machine), "output")
-    flags = [(v.reference, int(v.start)) for v in _of_type(inputs, bool)]
-    lines: list[Sequence[int]] = [
-        [v.reference for v in _of_type(inputs, float)],
-        [number for pair in flags for number in pair],
-        *([v.reference for v in _of_type(outputs, kind)] for kind in (float, int, bool)),
+    groups = [
+        *(_of_type(inputs, kind) for kind in (float, bool, int)),
+        *(_of_type(outputs, k) for k in (float, int, bool)),
     ]
-    counts = [len(lines[0]), len(flags), *map(len, lines[2:])]
-    texts = (" ".join(map(str, (count, *line))) for count, line in zip(counts, lines, strict=True))
+    texts = (" ".join(map(str, (len(group), *(v.reference for v in group)))) for group in groups)
     return "\n".join([repr(CYCLE_TIME), *texts, ""])
 
 

@@ -15,13 +15,17 @@ from .parser import Parser, refusal
 
 COMMANDS = {
     "build": "build the FMU of a machine from its lists",
-    "check": "check the lists of a machine",
+    "check": "check the lists of machines",
+    "format": "write lists in a layout",
+    "lsp": "serve editors: findings while one types, and all about an entry",
     "parameters": "list the parameters that are understood",
     "run": "run setpoints and NC commands through a machine",
     "demo": "couple compensation and plant, and show what is left of the errors",
     "bench": "measure what a cycle costs, engine and FMU",
-    "measure": "evaluate positioning measurements by ISO 230-2",
-    "create": "make compensation tables from measurements",
+    "measure": "evaluate positioning measurements by ISO 230-2, circular tests by ISO 230-4",
+    "create": "make compensation tables from measurements and traces",
+    "plan": "propose what to measure next for volumetric errors",
+    "fit": "tune friction parameters until the peaks of a circular test are least",
     "convert": "convert leadscrew and cross tables to and from other controllers",
     "show": "show compensation tables as pictures and tables",
     "sweep": "run many variations of a machine",
@@ -36,16 +40,19 @@ That sets ``do``: a function of the options → exit status. Only the module of 
 """
 
 EXTRA = {
-    "demo": "demo",
     "bench": "demo",
-    "measure": "measure",
+    "budget": "measure",
     "create": "measure",
+    "demo": "demo",
+    "diagnose": "tables",
+    "fit": "measure",
+    "lsp": "lsp",
+    "measure": "measure",
+    "plan": "measure",
+    "replay": "plot",
+    "report": "measure",
     "show": "plot",
     "sweep": "sweep",
-    "budget": "measure",
-    "report": "measure",
-    "replay": "plot",
-    "diagnose": "tables",
 }
 """The extra without which a command does nothing."""
 
@@ -85,7 +92,7 @@ def _run(given: Sequence[str]) -> int:
     completed = os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []
     command = next(iter([*given, *completed]), "")
     absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
-    lacking = [name for name, extra in EXTRA.items() if extra in absent]
+    lacking = [name for name in COMMANDS if EXTRA.get(name) in absent]
     if command in COMMANDS:
         _add(command, subparsers)
     else:

@@ -14,7 +14,7 @@ from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
 from ..plant import package_plant
 from .axis_type import add_axis_type
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -81,6 +81,17 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         help="X.leadscrew.correction (default) or X_leadscrew_correction",
     )
     parser.add_argument(
+        "--types",
+        choices=("own", "real"),
+        default="own",
+        help="real: Real instead of Boolean and Integer, for importers that take everything as Real",
+    )
+    parser.add_argument(
+        "--no-lists",
+        action="store_true",
+        help="put no list into the FMU, only the tables compiled from them (native FMU only)",
+    )
+    parser.add_argument(
         "--no-external-tool",
         action="store_true",
         help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
@@ -99,6 +110,11 @@ def _platforms(text: str) -> tuple[str, ...]:
 
 def _do_build(args: argparse.Namespace) -> int:
     example = models() / "three_axis"
+    if args.machine is None:
+        if args.output is not None or args.image is not None:
+            print("axcomp build: --machine is missing: whose lists are to be in it?", file=sys.stderr)
+            return 2
+        print("axcomp build: no --machine: the example machine models/three_axis and its plant", file=sys.stderr)
     try:
         built = _build(args, args.machine or example)
         for finding in built.findings:
@@ -138,9 +154,13 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
             platforms=args.platforms,
             axis_type=args.axis_type,
             name=args.name,
+            types=args.types,
+            with_lists=not args.no_lists,
         )
     if args.platforms:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
+    if args.no_lists:
+        raise BuildError("--no-lists is for the native FMU: the one that runs in Python reads the lists.")
     return package_axcomp(
         lists,
         output,
@@ -149,6 +169,7 @@ def _build(args: argparse.Namespace, lists: Path) -> Built:
         external_tool=not args.no_external_tool,
         axis_type=args.axis_type,
         name=args.name,
+        types=args.types,
     )
 
 

@@ -10,8 +10,8 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from ..fit import FITS, Creation, Fit, Options, create, fit_of
-from ..measurement import MeasurementError, joined
+from ..fit import DROP, FITS, KEEP, REPORT, Creation, Fit, Options, create, fit_of
+from ..measurement import MeasurementError, SeveralAxesError
 
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -40,7 +40,14 @@ def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], fit: t
     )
     parser.add_argument("--into", type=Path, required=True, metavar="LIST", help=fit.into)
     parser.add_argument("--output", type=Path, metavar="FILE", help="write there instead")
-    parser.add_argument("--dry-run", action="store_true", help="write nothing")
+    parser.add_argument("--dry-run", action="store_true", help="write nothing, and show what would change")
+    parser.add_argument("--measured", default="", metavar="AXIS", help="of files with several axes the one that counts")
+    parser.add_argument(
+        "--outliers",
+        choices=(REPORT, DROP, KEEP),
+        default=REPORT,
+        help="readings that stand apart: stop and say so (default), leave them out, or let them count",
+    )
     for option, how in fit.arguments.items():
         parser.add_argument(f"--{option}", **how)
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draw measurement, table and what is left")
@@ -52,9 +59,12 @@ def _do_create(args: argparse.Namespace) -> int:
     fit: type[Fit[Any, Any]] = args.fit
     given = vars(args)
     try:
-        readings = joined([fit.read(path) for path in args.files])
+        target = fit.open(args.into, given)
+        readings = fit.load(args.files, given, lambda path: _read(fit, path, args.measured, target))
         options = Options(**{item.name: given[item.name] for item in fields(Options) if item.name in given})
-        creation = create(fit.name, readings, fit.open(args.into, given), options)
+        creation = create(fit.name, readings, target, options)
+        changes = creation.changes(args.output) if args.dry_run else []
+        kept = [] if args.dry_run else creation.backups(args.output)
         written = [] if args.dry_run else creation.write(args.output)
         if args.plot is not None:
             picture: Any = creation.plot().figure
@@ -67,13 +77,25 @@ def _do_create(args: argparse.Namespace) -> int:
         return 1
     if args.format == "json":
         written_to = str(written[0]) if written else None
-        print(json.dumps({**creation.to_dict(), "written": written_to}, indent=2, ensure_ascii=False))
+        found = {**creation.to_dict(), "written": written_to, "backups": list(map(str, kept))}
+        print(json.dumps({**found, **({"diff": changes} if args.dry_run else {})}, indent=2, ensure_ascii=False))
     else:
-        _print(creation, written)
+        _print(creation, written, kept, changes)
     return 0
 
 
-def _print(creation: Creation, written: Sequence[Path]) -> None:
+def _read(fit: type[Fit[Any, Any]], path: Path, axis: str, target: Any) -> Any:
+    """Return the readings of a file; of several axes those of ``axis``, else of the axis that the list is for."""
+    try:
+        return fit.read(path, axis) if axis else fit.read(path)
+    except SeveralAxesError:
+        own = getattr(getattr(target, "axis", None), "name", "")
+        if axis or not own:
+            raise
+        return fit.read(path, own)
+
+
+def _print(creation: Creation, written: Sequence[Path], kept: Sequence[Path], changes: Sequence[str]) -> None:
     from ..plot import compared, console, table
 
     out, report = console(), creation.report
@@ -83,4 +105,8 @@ def _print(creation: Creation, written: Sequence[Path]) -> None:
     out.print(compared(f"{creation.kind} into {creation.path}", creation.figures, creation.labels, creation.unit))
     for sentence in (*report.sentences, *(f"Note: {note}" for note in report.notes)):
         out.print(sentence)
+    for line in changes:
+        print(line)
+    if kept:
+        out.print(f"What was there before is in {' and '.join(map(str, kept))}.")
     out.print(f"Written to {' and '.join(map(str, written))}." if written else "Nothing was written.")

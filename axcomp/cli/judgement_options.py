@@ -77,7 +77,7 @@ def _measurements(
     measurements, readings = [], []
     for file in options.measurement:
         try:
-            measurement = read_positioning(file, of_another_axis=options.over is not None)
+            measurement = read_positioning(file, options.axis or "", of_another_axis=options.over is not None)
             readings.append(measurement)
             axis = options.axis or measurement.axis or _only_axis(machine, file)
             over = options.over or axis

@@ -10,6 +10,9 @@ from pathlib import Path
 from ..lists import Reading, Severity, TypeName, read_machine
 from ..model import machine_path
 
+STATUS_MAX = 100
+"""Largest exit status that counts something: larger ones are not the program's to use."""
+
 
 def add_lists_command(
     subparsers: argparse._SubParsersAction[argparse.ArgumentParser],

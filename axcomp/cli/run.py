@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..analysis.diagnosis import write_named_diagnoses
 from ..engine import COMMAND, TIME, Engine, NcError, read_table
 from ..lists import read_machine
-from ..model import CYCLE_TIME, machine_path, models
+from ..model import CYCLE_TIME, machine_path
 from .axis_type import add_axis_type
 
 _ON_TIME = 1e-6
@@ -56,7 +56,11 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     )
     parser.add_argument("program", type=Path, metavar="PROGRAM.csv", help="one row for each cycle")
     parser.add_argument(
-        "--machine", type=machine_path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"
+        "--machine",
+        type=machine_path,
+        required=True,
+        metavar="PATH",
+        help="hochlauf.lis, a folder with one, or a single achskw*.lis",
     )
     parser.add_argument("--output", type=Path, metavar="FILE", help="CSV with the outputs; default: standard output")
     parser.add_argument(
@@ -74,7 +78,7 @@ def _do_run(args: argparse.Namespace) -> int:
     cycle_time = args.cycle_time or program.spacing or CYCLE_TIME
     if program.spacing is not None and abs(program.spacing - cycle_time) > _ON_TIME * cycle_time:
         raise ValueError(f"{args.program}: the rows are {program.spacing:g} s apart, the cycles {cycle_time:g} s")
-    lists = args.machine or models() / "three_axis"
+    lists = args.machine
     engine = Engine(lists, cycle_time, args.naming, args.axis_type)
     engine.runtime.start_time = program.start
 

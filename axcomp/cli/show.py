@@ -11,7 +11,18 @@ from dataclasses import asdict, astuple
 from pathlib import Path
 
 from ..kinds import KINDS
-from ..plot import VOLUMETRIC, Content, NotComparableError, Records, contents_of, overview, page, save, shown
+from ..plot import (
+    VOLUMETRIC,
+    Content,
+    NoPlotlyError,
+    NotComparableError,
+    Records,
+    contents_of,
+    overview,
+    page,
+    save,
+    shown,
+)
 from .axis_type import add_axis_type
 from .lists import add_lists_command, failed, read_lists
 
@@ -26,7 +37,7 @@ kind added), .html one page with all pictures and tables, .csv all numbers. With
 examples:
   axcomp show models/three_axis
   axcomp show models/three_axis --axis X --kind leadscrew --output x.png
-  axcomp show models/three_axis --output machine.html
+  axcomp show models/five_axis --output machine.html --interactive
   axcomp show new/hochlauf.lis --against old/hochlauf.lis --output difference.html
 """
 
@@ -38,6 +49,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--axis", help="only the tables of this axis")
     parser.add_argument("--kind", choices=(*KINDS, VOLUMETRIC), help="only this kind")
     parser.add_argument("--output", type=Path, metavar="FILE", help="FILE.png, FILE.html or FILE.csv")
+    parser.add_argument("--interactive", action="store_true", help="FILE.html: volumetric errors in 3-D, by Plotly")
     parser.add_argument("--against", type=Path, metavar="OTHER", help="another machine: show OTHER minus PATH")
     parser.add_argument("--tool-length", type=float, default=0.0, metavar="mm", help="for the TCP error (0)")
     parser.add_argument("--rows", type=int, default=ROWS, metavar="N", help=f"rows of a printed table ({ROWS}); 0: all")
@@ -46,23 +58,28 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_show(args: argparse.Namespace) -> int:
-    if args.output is not None and args.output.suffix.lower() not in _WRITERS:
-        return failed("show", f"{args.output} must end in {', '.join(_WRITERS)}")
-    contents, known = _contents(args.path, args)
+    if args.output is not None and args.output.suffix.lower() not in _SUFFIXES:
+        return failed("show", f"{args.output} must end in {', '.join(_SUFFIXES)}")
+    contents, known, name = _contents(args.path, args)
     notes: list[str] = []
+    title = f"Compensations of {name}"
     if args.against is not None:
-        others, other_known = _contents(args.against, args)
+        others, other_known, other = _contents(args.against, args)
         if not other_known:
             return failed("show", f"there is no axis in {args.against}")
         known |= other_known
+        title = f"{other} minus {name}"
         contents, notes = _differences(contents, others)
     if not contents:
         return failed("show", _nothing(args, known, notes))
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
     if args.output is not None:
-        title = f"{args.against} minus {args.path}" if args.against else f"Compensations of {args.path}"
-        for path in _WRITERS[args.output.suffix.lower()](contents, args.output, title, notes):
+        try:
+            written = _written(contents, args, title, notes)
+        except NoPlotlyError as error:
+            return failed("show", str(error))
+        for path in written:
             print(path)
     elif args.format == "json":
         print(json.dumps([_figures(content) for content in contents], ensure_ascii=False))
@@ -71,10 +88,12 @@ def _do_show(args: argparse.Namespace) -> int:
     return 0
 
 
-def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
-    """Return what is asked for, and the names of the machine's axes."""
-    machine = read_lists(path, args.axis_type).machine
-    return contents_of(machine, args.axis, args.kind, args.tool_length), {axis.name for axis in machine.axes}
+def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str], str]:
+    """Return what is asked for, the names of the machine's axes, and its own."""
+    reading = read_lists(path, args.axis_type)
+    machine = reading.machine
+    contents = contents_of(machine, args.axis, args.kind, args.tool_length)
+    return contents, {axis.name for axis in machine.axes}, reading.name
 
 
 def _differences(mine: Sequence[Content], theirs: Sequence[Content]) -> tuple[list[Content], list[str]]:
@@ -103,7 +122,7 @@ def _nothing(args: argparse.Namespace, known: set[str], notes: Sequence[str]) ->
     return f"no {asked}{of_axis} is in force in {args.path}{' and ' + str(args.against) if args.against else ''}{said}"
 
 
-def _write_pictures(contents: Sequence[Content], path: Path, _title: str, _notes: Sequence[str]) -> list[Path]:
+def _write_pictures(contents: Sequence[Content], path: Path) -> list[Path]:
     paths = [path]
     if len(contents) > 1:
         paths = [path.with_name(f"{path.stem}-{_in_file_name(one.subject.name)}{path.suffix}") for one in contents]
@@ -116,12 +135,7 @@ def _in_file_name(name: str) -> str:
     return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in name)
 
 
-def _write_page(contents: Sequence[Content], path: Path, title: str, notes: Sequence[str]) -> list[Path]:
-    path.write_text(page(title, contents, notes), encoding="utf-8")
-    return [path]
-
-
-def _write_csv(contents: Sequence[Content], path: Path, _title: str, _notes: Sequence[str]) -> list[Path]:
+def _write_csv(contents: Sequence[Content], path: Path) -> list[Path]:
     """Write all numbers below each other; columns that a content does not have stay empty."""
     all_records = [content.records() for content in contents]
     columns = list(dict.fromkeys(column for records in all_records for column in records.columns))
@@ -135,7 +149,17 @@ def _write_csv(contents: Sequence[Content], path: Path, _title: str, _notes: Seq
     return [path]
 
 
-_WRITERS = {".png": _write_pictures, ".html": _write_page, ".csv": _write_csv}
+_SUFFIXES = (".png", ".html", ".csv")
+
+
+def _written(contents: Sequence[Content], args: argparse.Namespace, title: str, notes: Sequence[str]) -> list[Path]:
+    """Write the contents and return the files."""
+    path: Path = args.output
+    suffix = path.suffix.lower()
+    if suffix == ".html":
+        path.write_text(page(title, contents, notes, turning=args.interactive), encoding="utf-8")
+        return [path]
+    return _write_pictures(contents, path) if suffix == ".png" else _write_csv(contents, path)
 
 
 def _figures(content: Content) -> dict[str, object]:

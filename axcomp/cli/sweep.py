@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .check import STATUS_MAX
+from .lists import STATUS_MAX
 from .progress import progress
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from ..sweep import Sweep
 
 ROWS_SHOWN = 12
 ERRORS_SHOWN = 5
@@ -103,7 +103,7 @@ def _do_sweep(args: argparse.Namespace) -> int:
     if args.format == "json":
         print(sweep.table.to_json(orient="records", indent=2, force_ascii=False, double_precision=15))
     else:
-        _print(args.output, sweep.table, sweep.taken_over)
+        _print(args.output, sweep)
     news = sweep.table[sweep.table[FINDINGS] != ""]
     for number, text in list(zip(news[RUN], news[FINDINGS], strict=True))[:ERRORS_SHOWN]:
         for finding in text.split("\n"):
@@ -129,20 +129,23 @@ def _fault(args: argparse.Namespace) -> str:
     return ""
 
 
-def _print(output: Path, table: pd.DataFrame, taken_over: int) -> None:
+def _print(output: Path, sweep: Sweep) -> None:
     import pandas as pd
 
     from ..plot import terminal
     from ..sweep import ERROR, FINDINGS
 
+    table = sweep.table
     # Texts have no room in a table.
     shown = table.drop(columns=[FINDINGS, ERROR]).head(ROWS_SHOWN)
     rows = [
         ["–" if pd.isna(v) else f"{v:.6g}" if isinstance(v, float) else str(v) for v in row]
         for row in shown.itertuples(index=False)
     ]
-    before = f", {taken_over} of them from before" if taken_over else ""
+    before = f", {sweep.taken_over} of them from before" if sweep.taken_over else ""
     more = f" (the first {ROWS_SHOWN})" if len(table) > ROWS_SHOWN else ""
     terminal.console().print(
-        terminal.table(f"{output}: {len(table)} runs{before}{more}", [str(name) for name in shown], rows)
+        terminal.table(
+            f"{output}: {len(table)} runs{before}{more}", [sweep.labelled(str(name)) for name in shown], rows
+        )
     )

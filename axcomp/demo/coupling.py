@@ -28,10 +28,14 @@ DONE = "done.txt"
 
 
 class Simulation(NamedTuple):
-    """Setpoints, velocities and accelerations of all axes, shape (cycles, 3 · axes), and switches that are off."""
+    """Setpoints, velocities and accelerations of all axes, shape (cycles, 3 · axes), and switches that are off.
+
+    ``plant``: in which folder the plant's FMU is unpacked.
+    """
 
     commands: Array
     off: tuple[str, ...]
+    plant: str = PLANT
 
 
 class Batch(NamedTuple):
@@ -102,15 +106,15 @@ class Reals:
 
 
 def couple(folder: Path, batch: Batch, simulation: Simulation) -> Array:
-    """Run both FMUs, unpacked in ``axcomp`` and ``plant`` of a folder, from rest to the end of the commands.
+    """Run both FMUs, unpacked in folders of a folder, from rest to the end of the commands.
 
     Returns
     -------
-    array, shape (cycles, 2 · axes), or (cycles, 2 · axes + 6) if the plant knows a tool tip
-        At the end of each step: true positions, following errors, and the tip and where it should be in the
-        workpiece's coordinates; all in mm or °.
+    array, shape (cycles, 3 · axes), or (cycles, 3 · axes + 6) if the plant knows a tool tip
+        At the end of each step: true positions, following errors, what of the errors no table holds, and the tip and
+        where it should be in the workpiece's coordinates; all in mm or °.
     """
-    compensation, plant = CoupledFmu(folder / COMPENSATION), CoupledFmu(folder / PLANT)
+    compensation, plant = CoupledFmu(folder / COMPENSATION), CoupledFmu(folder / simulation.plant)
     axes = batch.axes
     given = compensation.reals(f"{axis}.{name}" for name in COMMANDS for axis in axes)
     actual = compensation.reals(f"{axis}.actual_position" for axis in axes)
@@ -118,7 +122,7 @@ def couple(folder: Path, batch: Batch, simulation: Simulation) -> Array:
     corrected = compensation.reals([f"{axis}.corrected_setpoint" for axis in axes] + currents)
     driven = plant.reals([f"{axis}.setpoint" for axis in axes] + currents)
     measured = plant.reals(f"{axis}.measured_position" for axis in axes)
-    names = [f"{axis}.{name}" for name in ("true_position", "following_error") for axis in axes]
+    names = [f"{axis}.{name}" for name in ("true_position", "following_error", "beyond_tables") for axis in axes]
     knows_tip = batch.tool_length is not None
     names += [f"tcp.{prefix}{k}" for prefix in ("", "nominal_") for k in "xyz" if knows_tip]
     meant = plant.reals(f"{axis}.commanded_position" for axis in axes if knows_tip)

@@ -19,20 +19,22 @@ BEFORE, AFTER = 10, 120
 class Trace(NamedTuple):
     """What a simulation shows of each axis, by its name, at the end of each cycle, shape (cycles,); mm or °.
 
-    ``tip_error``: of the tool tip as the workpiece sees it, shape (cycles, 3), mm, or (cycles, 0) if it is not known.
+    ``beyond``: the part of true − measured position that no table holds. ``tip_error``: of the tool tip as the
+    workpiece sees it, shape (cycles, 3), mm, or (cycles, 0) if it is not known.
     """
 
     true_position: Mapping[str, Array]
     following_error: Mapping[str, Array]
+    beyond: Mapping[str, Array]
     tip_error: Array
 
     @classmethod
     def of(cls, axes: Sequence[str], recorded: Array) -> Trace:
         """Return what ``coupling.couple`` has recorded, for axes of these names."""
-        true, lag, tip = np.split(recorded, [len(axes), 2 * len(axes)], axis=1)
+        *columns, tip = np.split(recorded, [n * len(axes) for n in (1, 2, 3)], axis=1)
         half = tip.shape[1] // 2
-        by_name = [dict(zip(axes, columns.T, strict=True)) for columns in (true, lag)]
-        return cls(by_name[0], by_name[1], tip[:, :half] - tip[:, half:])
+        true, lag, beyond = (dict(zip(axes, column.T, strict=True)) for column in columns)
+        return cls(true, lag, beyond, tip[:, :half] - tip[:, half:])
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,9 @@ class Outcome:
 
     ``axis``: its name; ``TCP x`` … for the tool tip, ``TCP`` for how far it is off. ``without`` and ``compensated``:
     tool error, true position − target, at the ``cycles`` that count. ``following_error``: the largest in these, with
-    compensation.
+    compensation. ``beyond``: what no table can take off, 0 of a plant without memory: of geometric errors the largest
+    part of them that depends on neither position nor acceleration at the moment, of friction the peak that the same
+    table leaves with the parameters that serve best.
     """
 
     trial: Trial
@@ -51,6 +55,7 @@ class Outcome:
     without: Array
     compensated: Array
     following_error: float
+    beyond: float = 0.0
 
     @property
     def largest(self) -> tuple[float, float]:
@@ -88,7 +93,8 @@ def outcomes(machine: Machine, trials: Sequence[Trial], traces: Sequence[tuple[T
             target, (factor, unit) = trial.target(axis), units[axis]
             errors = [factor * (trace.true_position[axis] - target)[cycles] for trace in (without, compensated)]
             following = factor * float(np.max(np.abs(compensated.following_error[axis][cycles])))
-            yield Outcome(trial, axis, unit, cycles, errors[0], errors[1], following)
+            beyond = factor * float(np.max(np.abs(compensated.beyond[axis][cycles])))
+            yield Outcome(trial, axis, unit, cycles, errors[0], errors[1], following, beyond)
 
 
 def _of_tip(trial: Trial, without: Trace, compensated: Trace, linear: Sequence[str]) -> Iterator[Outcome]:
@@ -102,15 +108,17 @@ def _of_tip(trial: Trial, without: Trace, compensated: Trace, linear: Sequence[s
     yield Outcome(trial, TCP, unit, cycles, distances[0], distances[1], following)
 
 
-def table(results: Sequence[Outcome]) -> str:
-    """Return the errors as a table for the terminal."""
+def table(results: Sequence[Outcome], remembering: bool = False) -> str:
+    """Return the errors as a table for the terminal; of a plant that remembers, with what no table can remove."""
     rows: list[tuple[str, ...]] = [("axis", "compensation", "without", "with", "", "left", "following error")]
+    rows[0] += ("no table removes",) * remembering
     for result in results:
         figures = [f"{figure:.2f}" for figure in (*result.largest, result.following_error)]
         left = f"{100.0 * result.ratio:.1f} %"
-        rows.append((result.axis, label(result.trial), *figures[:2], result.unit, left, figures[2]))
+        beyond = (f"{result.beyond:.2f}",) * remembering
+        rows.append((result.axis, label(result.trial), *figures[:2], result.unit, left, figures[2], *beyond))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    layout = "  ".join(f"{{:{side}{width}}}" for side, width in zip("<<>><>>", widths, strict=True))
+    layout = "  ".join(f"{{:{side}{width}}}" for side, width in zip("<<>><>>>", widths, strict=False))
     lines = [layout.format(*row).rstrip() for row in rows]
     lines.insert(1, "-" * max(map(len, lines)))
     return "\n".join(lines)

@@ -162,6 +162,8 @@ def _summary(ax: Axes, results: Sequence[Outcome]) -> None:
         without, compensated = result.largest
         ax.plot([compensated, without], [line, line], color="0.75", lw=2, zorder=1)
         ax.scatter([without, compensated], [line, line], color=[WITHOUT, WITH], s=36, zorder=2)
+        if result.beyond > 0.0:
+            ax.plot(result.beyond, line, "k|", ms=14, mew=1.6, zorder=3)
         text = f"{100.0 * result.ratio:.1f} %"
         ax.annotate(text, (without, line), (7, 0), textcoords="offset points", va="center", fontsize=9)
     ax.set_xscale("log")
@@ -171,7 +173,8 @@ def _summary(ax: Axes, results: Sequence[Outcome]) -> None:
     ax.invert_yaxis()
     ax.set_xlabel(f"largest error [{' or '.join(sorted({result.unit for result in results}))}]")
     ax.grid(axis="x", alpha=0.3)
-    ax.set_title("Largest errors, and what is left")
+    more = " (|: no table removes)" if any(result.beyond for result in results) else ""
+    ax.set_title(f"Largest errors, and what is left{more}")
 
 
 PANELS: dict[str, Callable[[Axes, Stage, Outcome], None]] = {

@@ -8,19 +8,24 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from fmpy import extract
 
 from ..engine import Array
+from ..fit import Circle, ReversingAxis, tune
 from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native
 from ..model import CYCLE_TIME, Machine
-from ..plant import package_plant, plant_variables
+from ..plant import MEMORYLESS, Plant, load_plant, package_plant, plant_variables
 from .coupling import BATCH, COMMANDS, COMPENSATION, DONE, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
-from .trials import TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
+from .trials import FEED, RADIUS, TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
+
+WITHOUT_MEMORY = f"{PLANT}_{MEMORYLESS}"
+"""Name of the other plant's FMU."""
 
 Progress = Callable[[int, int], None]
 POLL = 0.1
@@ -34,15 +39,25 @@ class DemoError(Exception):
 
 
 class Demo(NamedTuple):
-    """What the demonstration has shown; ``note`` says why it was not shown with the native FMU, "" if it was."""
+    """What the demonstration has shown.
+
+    ``results``: with the plant that has no memory; ``remembering``: with the one that has, empty where ``plant.json``
+    names nothing of the kind. ``note`` says why it was not shown with the native FMU, "" if it was.
+    """
 
     machine: Machine
     results: tuple[Outcome, ...]
     note: str = ""
+    remembering: tuple[Outcome, ...] = ()
 
 
-def demonstrate(lists: Path, output: Path, progress: Progress = lambda _done, _of: None) -> Demo:
-    """Build ``axcomp.fmu`` and ``plant.fmu`` in a folder, couple them and return the errors of all axes.
+def demonstrate(
+    lists: Path, output: Path, seed: int | None = None, progress: Progress = lambda _done, _of: None
+) -> Demo:
+    """Build ``axcomp.fmu`` and the plants in a folder, couple them and return the errors of all axes.
+
+    ``plant.fmu`` is all that ``plant.json`` says, with parameters drawn by ``seed`` (None: as it says);
+    ``plant_memoryless.fmu`` the same without memory, if that is another.
 
     ``progress``: called with the cycles that are done, and with all there are.
 
@@ -57,7 +72,11 @@ def demonstrate(lists: Path, output: Path, progress: Progress = lambda _done, _o
     variables = plant_variables(model)
     output.mkdir(parents=True, exist_ok=True)
     built, note = _compensation(lists, output / f"{COMPENSATION}.fmu")
-    plant = package_plant(model, output / f"{PLANT}.fmu")
+    drawn: dict[str, Any] = {} if seed is None else {"seed": seed}
+    plants = {PLANT: package_plant(model, output / f"{PLANT}.fmu", **drawn)}
+    whole = load_plant(model, **drawn)
+    if whole.remembers:
+        plants[WITHOUT_MEMORY] = package_plant(model, output / f"{WITHOUT_MEMORY}.fmu", choice=MEMORYLESS, **drawn)
     machine = built.machine
     known = {variable.name.rpartition(".")[0] for variable in variables}
     missing = [name_of(axis) for axis in machine.axes if name_of(axis) not in known]
@@ -71,14 +90,39 @@ def demonstrate(lists: Path, output: Path, progress: Progress = lambda _done, _o
     if not trials:
         raise DemoError(f"{lists}: no compensation acts, so there is nothing to show.")
     simulations, of_trial = _simulations(machine, trials)
+    kinds = list(plants)[::-1]
+    every = [simulation._replace(plant=kind) for kind in kinds for simulation in simulations]
     with tempfile.TemporaryDirectory(prefix="axcomp_demo_") as temporary:
         folder = Path(temporary)
-        for name, path in ((COMPENSATION, built.path), (PLANT, plant)):
+        for name, path in ((COMPENSATION, built.path), *plants.items()):
             extract(path, folder / name)
         tool_length = TOOL_LENGTH if knows_tip and machine.volumetric else None
-        traces = _simulate(folder, machine, simulations, tool_length, progress)
-    pairs = [(traces[without], traces[compensated]) for without, compensated in of_trial]
-    return Demo(machine, tuple(outcomes(machine, trials, pairs)), note)
+        traces, left = _simulate(
+            folder, machine, every, tool_length, lambda: _best_left(machine, trials, whole), progress
+        )
+    shown = []
+    for first in range(0, len(every), len(simulations)):
+        pairs = [(traces[first + without], traces[first + compensated]) for without, compensated in of_trial]
+        shown.append(tuple(outcomes(machine, trials, pairs)))
+    remembering = [
+        replace(one, beyond=left[one.axis]) if one.trial.kind == "friction" else one
+        for found in shown[1:]
+        for one in found
+    ]
+    return Demo(machine, shown[0], note, tuple(remembering))
+
+
+def _best_left(machine: Machine, trials: Sequence[Trial], plant: Plant) -> dict[str, float]:
+    """Return the peak of each axis on a circle with the friction parameters that serve best, µm or ″, by its name."""
+    watched = (
+        {axis for trial in trials if trial.kind == "friction" for axis in trial.watched} if plant.remembers else ()
+    )
+    left = {}
+    for axis in machine.axes:
+        if axis.friction is not None and name_of(axis) in watched:
+            reversing = ReversingAxis(plant, name_of(axis), Circle(RADIUS, FEED))
+            left[name_of(axis)] = tune(reversing, axis.friction).left.largest
+    return left
 
 
 def _compensation(lists: Path, path: Path) -> tuple[Built, str]:
@@ -118,9 +162,17 @@ def _disabled(machine: Machine, kinds: Sequence[str]) -> tuple[str, ...]:
 
 
 def _simulate(
-    folder: Path, machine: Machine, simulations: Sequence[Simulation], tool_length: float | None, progress: Progress
-) -> list[Trace]:
-    """Share the simulations out to processes, each of which loads both FMUs; return the traces in their order."""
+    folder: Path,
+    machine: Machine,
+    simulations: Sequence[Simulation],
+    tool_length: float | None,
+    meanwhile: Callable[[], dict[str, float]],
+    progress: Progress,
+) -> tuple[list[Trace], dict[str, float]]:
+    """Share the simulations out to processes, each of which loads both FMUs.
+
+    Return the traces in their order, and what is computed in the meantime.
+    """
     shares: list[list[int]] = [[] for _ in range(min(PROCESSES, os.cpu_count() or 1, len(simulations)))]
     load = [0] * len(shares)
     for index in sorted(range(len(simulations)), key=lambda index: -len(simulations[index].commands)):
@@ -141,6 +193,7 @@ def _simulate(
             children.append(subprocess.Popen(command, stdout=messages, stderr=messages, env=_environment()))
     traces: dict[int, Trace] = {}
     try:
+        computed = meanwhile()
         for number, (child, share) in enumerate(zip(children, shares, strict=True)):
             while True:
                 try:
@@ -154,7 +207,7 @@ def _simulate(
         for child in children:
             child.kill()
             child.wait()
-    return [traces[index] for index in range(len(simulations))]
+    return [traces[index] for index in range(len(simulations))], computed
 
 
 def _done(file: Path) -> int:

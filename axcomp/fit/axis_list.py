@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -63,7 +64,13 @@ class AxisList(TargetList):
             return super().present(kind)
         return self._parsed(kind, self.values, Findings()) if KINDS[kind].is_activated(self.values) else None
 
-    def with_compensation(self, kind: str, compensation: Any, max_points: int | None = None) -> bytes:  # noqa: ARG002
+    def with_compensation(
+        self,
+        kind: str,
+        compensation: Any,
+        max_points: int | None = None,  # noqa: ARG002
+        settled: Collection[str] = (),  # noqa: ARG002
+    ) -> bytes:
         """Return the list with a compensation, activated; ValueError if it cannot hold a value."""
         how, lines = KINDS[kind], Lines(self.list_kind)
         lines.add(how.activator.name, how.activation(compensation))

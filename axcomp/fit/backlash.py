@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
@@ -11,13 +11,15 @@ import numpy as np
 
 from ..engine import Array
 from ..kinds import MODE, NEGATIVE, Backlash
-from ..measurement import Positioning, evaluate
+from ..measurement import AxisTrace, Outlier, Positioning, evaluate
 from ..model import shown
 from .axis_list import AxisList
 from .creation import Report
-from .driver import NEW_LIST, ON_TOP, rounded
+from .driver import NEW_LIST, ON_TOP, TRACE, rounded
 from .over_position import OverPosition
+from .trace_readings import positioning_of
 
+_NOTES = "notes"
 COVERAGE = 2.0
 """Factor k of expanded uncertainties."""
 _SPREAD = 0.5
@@ -32,16 +34,30 @@ class BacklashFit(OverPosition[Backlash]):
 
     name = "backlash"
     counted = "amount"
-    meaning = "backlash compensation from a positioning measurement in both directions"
-    columns = "Renishaw .rtl, or columns target, run, direction, deviation (mm, µm)"
+    meaning = "backlash compensation from a positioning measurement in both directions, or from a trace"
+    columns = (
+        "Renishaw .rtl, or columns target, run, direction, deviation (mm, µm); a trace has time (s), position (of the "
+        "motor) or setpoint, and actual (of the slide) or deviation, named so or by --map"
+    )
     example = "axcomp create backlash --from x.rtl --into achsmd1.lis"
     into = "axis list, made if it is not there; or what leads to it: start-up list, its folder, compensation list"
     arguments: ClassVar = {
         **NEW_LIST,
         "axis": {**NEW_LIST["axis"], "help": "logical axis number of a new list, or to find the axis list"},
         "on-top": ON_TOP,
+        **TRACE,
     }
     both = True
+
+    @classmethod
+    def of_trace(cls, trace: AxisTrace) -> Positioning:
+        """Return what the passes to and fro read at targets."""
+        readings, notes = positioning_of(trace)
+        return replace(readings, details={_NOTES: " ".join(notes)})
+
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart; the passes of a trace differ by their speeds, none of them is one."""
+        return () if _NOTES in self.readings.details else super().outliers()
 
     @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> AxisList:
@@ -106,6 +122,7 @@ class BacklashFit(OverPosition[Backlash]):
             "reversal_values": (-values).tolist(),
         }
         return Report(sentences, super().report(table).notes, details=details).noted(
+            self.readings.details.get(_NOTES, ""),
             "The backlash differs much over the targets: a bilateral leadscrew table would leave less." if far else "",
             "The backlash is within its uncertainty: there may be none." if unknown else "",
             "The backlash is below 0: are the directions of the measurement right?"

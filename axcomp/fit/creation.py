@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..lists import write_whole
 from ..model import Tabular, Tabulated
+from .keeping import backed_up, changes, owners
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,6 +70,8 @@ class Creation(Tabular, Mapping[str, Mapping[str, float]]):
     labels : mapping of str to str
         Name of each figure → how it is shown.
     report : Report
+    before : mapping of Path to bytes
+        What files held when they were read.
     draw : callable
         Draws measurement, table and what is left into axes.
     """
@@ -83,6 +86,7 @@ class Creation(Tabular, Mapping[str, Mapping[str, float]]):
     figures: Mapping[str, Mapping[str, float]]
     labels: Mapping[str, str]
     report: Report
+    before: Mapping[Path, bytes] = field(repr=False, default_factory=dict)
     draw: Callable[[Axes], None] = field(repr=False, default=lambda _: None)
 
     def __getitem__(self, state: str) -> Mapping[str, float]:
@@ -115,12 +119,33 @@ class Creation(Tabular, Mapping[str, Mapping[str, float]]):
         """What else should be known."""
         return self.report.notes
 
+    def noted(self, *notes: str) -> Creation:
+        """Return the same with notes in front of the others."""
+        return replace(self, report=self.report._replace(notes=(*notes, *self.report.notes)))
+
+    def changes(self, path: str | Path | None = None) -> list[str]:
+        """Return what ``write`` would change, line by line, as a unified diff."""
+        return changes(self._files(path))
+
     def write(self, path: str | Path | None = None) -> list[Path]:
-        """Write everything where it was read, or the list alone elsewhere, whole or not at all; return what was."""
-        files = self.files if path is None else {Path(path): self.data}
+        """Write everything where it was read, or the list alone elsewhere, whole or not at all; return what was.
+
+        CannotCreateError if a list names the other place.
+        """
+        files = self._files(path)
+        if path is not None and Path(path).resolve() != self.path.resolve() and (named := owners(Path(path))):
+            raise CannotCreateError(f"{path} is not overwritten: {', '.join(map(str, named))} names it")
         for file, data in files.items():
             write_whole(file, data)
         return list(files)
+
+    def backups(self, path: str | Path | None = None) -> list[Path]:
+        """Keep what ``write`` would replace beside it, as ``.bak``; return where it is."""
+        kept = [backed_up(file, data, self.before.get(file)) for file, data in self._files(path).items()]
+        return [one for one in kept if one is not None]
+
+    def _files(self, path: str | Path | None) -> Mapping[Path, bytes]:
+        return self.files if path is None else {Path(path): self.data}
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw measurement, table and what is left; return the axes."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 from math import comb
@@ -13,12 +13,13 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import Crosstalk, CrosstalkTest
-from ..measurement import LENGTHS, RUN, TARGET_DIGITS, Column, Readings
+from ..measurement import LENGTHS, RUN, TARGET_DIGITS, AxisTrace, Column, Outlier, Readings, find_outliers
 from ..model import shown
 from ..plot import labelled
 from .creation import CannotCreateError
-from .driver import NEW_LIST, Fit, axis_numbers, bound, rounded
+from .driver import NEW_LIST, TRACE, Fit, axis_numbers, bound, rounded
 from .hat_functions import hats
+from .trace_readings import accelerations_of, same_places
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -89,10 +90,11 @@ class CrosstalkFit(Fit[AccelerationTests, _Table]):
 
     name = "crosstalk"
     counted = "tests"
-    meaning = "crosstalk table from acceleration tests"
+    meaning = "crosstalk table from acceleration tests, or from a trace"
     columns = (
         "columns acceleration (mm/s²), direction, deviation (of the slave; µm), and where they vary position1, "
-        "position2 (mm), run"
+        "position2 (mm), run; a trace has time (s), master_setpoint, master_position, master_velocity or "
+        "master_acceleration, and of the slave deviation, or actual and setpoint, named so or by --map"
     )
     example = "axcomp create crosstalk --from tests.csv --into achskw2.lis --master 1 --adaptation 1 3"
     arguments: ClassVar = {
@@ -100,8 +102,30 @@ class CrosstalkFit(Fit[AccelerationTests, _Table]):
         **NEW_LIST,
         "master": axis_numbers("number of the master", 1),
         "adaptation": axis_numbers("numbers of the axes of position1 and position2", "+", "adaptation"),
+        **TRACE,
     }
     read = AccelerationTests.read
+
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart from those of the same test."""
+        found = self.readings
+        tests = np.column_stack([found.places, found.accelerations, found.directions])
+        test = np.unique(tests, axis=0, return_inverse=True)[1].ravel()
+
+        def named(i: int) -> str:
+            return f"place {found.places[i, 0]:g}, {found.places[i, 1]:g} mm at {found.accelerations[i]:g} mm/s²"
+
+        return find_outliers(test, found.runs, found.deviations, named)
+
+    @classmethod
+    def of_trace(cls, trace: AxisTrace) -> AccelerationTests:
+        """Return a test for each stretch of constant acceleration."""
+        accelerations, directions, deviations, *places = (
+            np.array(c) for c in zip(*accelerations_of(trace), strict=True)
+        )
+        where = np.column_stack([same_places(place) for place in places])
+        ones = np.ones(len(directions), dtype=np.int64)
+        return AccelerationTests(where, accelerations, directions, deviations, ones, trace.source)
 
     def prepare(self) -> None:
         """Look which axes take part, and which cases were measured."""

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import KINDS
-from ..measurement import Readings
+from ..measurement import AxisTrace, Outlier, Readings, is_trace, joined, read_axis_trace
 from ..model import shown
 from .creation import LEFT_OUT, MEASURED, PREDICTED, CannotCreateError, Creation, Report
 from .target_list import TargetList
@@ -22,6 +22,8 @@ from .thinning import Places, closest, deviation, fewest
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+REPORT, DROP, KEEP = "report", "drop", "keep"
+"""What becomes of outliers: they stop it, are left out, or count like the others."""
 RESOLUTION = 1e-4
 """What positions and corrections in a list count in, mm or °."""
 
@@ -41,6 +43,17 @@ ON_TOP: Option = {"action": "store_true", "help": "the compensation acted during
 NEW_LIST: dict[str, Option] = {
     "axis": {"type": int, "metavar": "N", "help": "logical axis number of a new list"},
     "name": {"default": "", "help": "name of the axis in a new list"},
+}
+
+
+TRACE: dict[str, Option] = {
+    "map": {
+        "action": "append",
+        "default": [],
+        "metavar": "COLUMNS",
+        "help": "what the columns of a trace are: velocity=v_ist[mm/s],current=I,time=t[ms]",
+    },
+    "cycle-time": {"type": float, "metavar": "s", "help": "distance of the rows of a trace without time"},
 }
 
 
@@ -67,9 +80,15 @@ class Options:
     masters, adaptation : sequence of int
         Logical numbers of the masters (cross, plane; crosstalk: the accelerating axis) and of the adaptation axes
         (crosstalk); 0 or none: as the list says.
+    outliers : str
+        ``report``: readings that stand apart stop it; ``drop``: they are left out; ``keep``: they count.
     errors, nodes, scatter : sequence of str, int, float or None
         The errors that are sought, values of one at most, standard deviation of a reading in µm (volumetric); None: all
         of the chain, as many as usual, as the residuals say.
+    bin : float or None
+        Velocities within so many percent count as one (friction).
+    reversal : bool
+        The list is to say what the reversals of a trace propose (friction).
     """
 
     bound: float | None = None
@@ -78,9 +97,12 @@ class Options:
     one_sided: bool = False
     masters: Sequence[int] = ()
     adaptation: Sequence[int] = ()
+    outliers: str = REPORT
     errors: Sequence[str] | None = None
     nodes: int | None = None
     scatter: float | None = None
+    bin: float | None = None
+    reversal: bool = False
 
 
 class Fit(ABC, Generic[R, T]):
@@ -155,8 +177,27 @@ class Fit(ABC, Generic[R, T]):
 
     @staticmethod
     @abstractmethod
-    def read(path: str | Path) -> R:
-        """Read a file; MeasurementError if it cannot be read, or a line of it."""
+    def read(path: str | Path, axis: str = "") -> R:
+        """Read a file, of several axes in it that of ``axis``; MeasurementError if it, or a line of it, cannot be."""
+
+    @classmethod
+    def load(cls, paths: Sequence[Path], given: Mapping[str, Any], read: Callable[[Path], R]) -> R:
+        """Read files as one measurement, traces among them; ``given``: values of the command's options."""
+        if "map" not in given:
+            return joined([read(path) for path in paths])
+        return joined(
+            [
+                cls.of_trace(read_axis_trace(path, given["map"], given["cycle_time"]))
+                if given["map"] or is_trace(path)
+                else read(path)
+                for path in paths
+            ]
+        )
+
+    @classmethod
+    def of_trace(cls, trace: AxisTrace) -> R:
+        """Return what a trace reads, for kinds with the arguments ``TRACE``."""
+        raise NotImplementedError
 
     @classmethod
     def open(cls, path: Path, given: Mapping[str, Any]) -> Any:
@@ -204,9 +245,24 @@ class Fit(ABC, Generic[R, T]):
     def compensation(self, table: T) -> Any:
         """Return what the list is to say."""
 
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart from their like."""
+        return ()
+
+    def moved(self, other: Self) -> float:
+        """Return how far the table is from that of a fit of some of the readings, at most, in ``small``."""
+        mine, its = (one.table(one.means(one.readings)) for one in (self, other))
+        means = other.means(other.readings)
+        return float(np.max(np.abs(self.removed(mine, means) - other.removed(its, means))))
+
     def points(self, table: T) -> int:
         """Return the number of entries."""
         return int(np.size(getattr(self.compensation(table), self.counted)))
+
+    @property
+    def settled(self) -> tuple[str, ...]:
+        """Entries that the list is to say besides the table: ends of their names."""
+        return ()
 
     @abstractmethod
     def draw(self, ax: Axes, table: T) -> None:
@@ -220,7 +276,7 @@ class Fit(ABC, Generic[R, T]):
 
     def files(self, compensation: Any) -> dict[Path, bytes]:
         """Return the list with the compensation, and what else changes."""
-        data = self.target.with_compensation(self.name, compensation, self.options.max_points)
+        data = self.target.with_compensation(self.name, compensation, self.options.max_points, self.settled)
         return {self.target.path: data}
 
     def figures(self, left: Array) -> dict[str, float]:
@@ -273,6 +329,7 @@ class Fit(ABC, Generic[R, T]):
             figures=figures,
             labels=self.labels,
             report=report,
+            before=self.target.before(),
             draw=lambda ax: self.draw(ax, table),
         )
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 import numpy as np
 
 from ..engine import Array
-from ..measurement import SYMBOLS, Positioning, evaluate, read_positioning
+from ..measurement import SYMBOLS, Outlier, Positioning, evaluate, read_positioning
 from ..model import Curve, Quantity, symbol
 from ..plot import DOWN, UP, labelled
 from .creation import CannotCreateError, Report
@@ -43,6 +44,10 @@ class OverPosition(Fit[Positioning, T]):
     def counts_in(self) -> str:
         """Return what the axis that deviates counts in."""
         return self.readings.deviating
+
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart from those of the same target and direction."""
+        return self.readings.outliers()
 
     def figures(self, left: Array) -> dict[str, float]:
         """Return the figures of ISO 230-2, and the largest reading."""

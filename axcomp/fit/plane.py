@@ -13,7 +13,19 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..kinds import Plane
-from ..measurement import ANGLES, LENGTHS, RUN, TARGET_DIGITS, Column, Columns, Readings, angular, unit_of
+from ..measurement import (
+    ANGLES,
+    LENGTHS,
+    RUN,
+    TARGET_DIGITS,
+    Column,
+    Columns,
+    Outlier,
+    Readings,
+    angular,
+    find_outliers,
+    unit_of,
+)
 from ..model import Grid, Quantity, shown
 from ..plot import labelled
 from .creation import CannotCreateError
@@ -140,6 +152,15 @@ class PlaneFit(Fit[Flatness, Grid]):
         """Return the errors of the table at the places of the readings."""
         places = zip(readings.positions1.tolist(), readings.positions2.tolist(), strict=True)
         return np.array([table.at(x, y) for x, y in places])
+
+    def outliers(self) -> Sequence[Outlier]:
+        """Return readings that stand apart from those of the same place."""
+        found = self.readings
+        at = np.round(np.column_stack([found.positions1, found.positions2]), TARGET_DIGITS)
+        place = np.unique(at, axis=0, return_inverse=True)[1].ravel()
+        return find_outliers(
+            place, found.runs, found.deviations, lambda i: f"masters at {at[i, 0]:g}, {at[i, 1]:g}", self.small
+        )
 
     def table(self, means: Flatness) -> Grid:
         """Return the table that a list takes: with the fewest points within a bound, or the closest one."""

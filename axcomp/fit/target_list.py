@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, ClassVar
@@ -95,6 +96,10 @@ class TargetList:
             if self.axis is not None and self._is_named():
                 self.unit = self.axis.unit
 
+    def before(self) -> dict[Path, bytes]:
+        """Return what the list held when it was read."""
+        return {self.path: self._document.data} if self.exists else {}
+
     def _read(self, number: int | None) -> Document:  # noqa: ARG002
         """Return the list, read with the machine whose start-up list beside it names it, else alone."""
         if not self.path.is_file():
@@ -150,7 +155,9 @@ class TargetList:
         """Return the compensation of a kind that acts now, None if there is none."""
         return None if self.axis is None else getattr(self.axis, kind)
 
-    def with_compensation(self, kind: str, compensation: Any, max_points: int | None = None) -> bytes:
+    def with_compensation(
+        self, kind: str, compensation: Any, max_points: int | None = None, settled: Collection[str] = ()
+    ) -> bytes:
         """Return the list with a new compensation; what a measurement says nothing about stays as it is.
 
         Parameters
@@ -161,6 +168,8 @@ class TargetList:
             Its ``max_points``, ``manual_activation`` and the like do not count: the list's do.
         max_points : int, optional
             Entries to reserve, where the list is to say so from now on.
+        settled : collection of str, optional
+            Ends of entries that otherwise stay, which the list is to say as ``compensation`` does.
 
         Raises
         ------
@@ -175,13 +184,13 @@ class TargetList:
         owned = {
             row.name
             for row in CATALOGUE[ListKind.COMPENSATION]
-            if row.name.startswith(how.prefix) and self._is_owned(row.name, kind, max_points is not None)
+            if row.name.startswith(how.prefix) and self._is_owned(row.name, kind, max_points is not None, settled)
         }
         keys = {key_of(name) for name in owned}
         new = [line for line in lines.text().split("\n") if key_of(line.partition(" ")[0]) in keys]
         document = self._with_header()
         document.replace_entries(new, owned, how.title, self._rows_stay(kind, compensation))
-        self._check(kind, compensation, document, max_points is not None)
+        self._check(kind, compensation, document, max_points is not None, settled)
         return document.to_bytes()
 
     def _with_header(self) -> Document:
@@ -193,11 +202,11 @@ class TargetList:
         return document
 
     @staticmethod
-    def _is_owned(name: str, kind: str, with_max_points: bool) -> bool:
+    def _is_owned(name: str, kind: str, with_max_points: bool, settled: Collection[str]) -> bool:
         end = name.rpartition(".")[2]
         if end == "max_points":
             return with_max_points or kind == "crosstalk"
-        return end not in _SETTINGS
+        return end not in _SETTINGS or end in settled
 
     def _rows_stay(self, kind: str, compensation: Any) -> bool:
         """Tell whether the rows of a table are for the same positions as before."""
@@ -218,13 +227,15 @@ class TargetList:
             axes.add(AxisSettings(self.number), values.file, 0, "")
         return KINDS[kind].read(TableReader(values, axes.get(self.number), axes, findings))
 
-    def _check(self, kind: str, intended: Any, document: Document, with_max_points: bool = False) -> None:
+    def _check(
+        self, kind: str, intended: Any, document: Document, with_max_points: bool = False, settled: Collection[str] = ()
+    ) -> None:
         """Read the new list and compare: a list with a damaged group could hide what is put into it."""
         findings = Findings()
         found = self._parsed(kind, document.values, findings)
         if type(found) is type(intended):
             names = {field.name for field in fields(intended)}
-            kept = {name for name in _SETTINGS.values() if name in names}
+            kept = {name for end, name in _SETTINGS.items() if name in names and end not in settled}
             if with_max_points or kind == "crosstalk":
                 kept.discard("max_points")
             if replace(intended, **{name: getattr(found, name) for name in kept}) == found:

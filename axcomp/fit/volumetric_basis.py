@@ -13,6 +13,9 @@ from ..model import ERRORS, LETTERS, ROTARY
 from .hat_functions import hats
 
 FULL_TURN = 360.0
+_OFTEN, _ALL_OVER, _BEYOND = 0.02, 0.5, 0.02
+"""Share of the readings at one position that makes it a node, of the travel that such positions cover, and beyond which
+the ends of the travel are nodes too."""
 
 _DIGITS = 6
 _DEPENDENT = 1e-7
@@ -36,12 +39,15 @@ class Sought:
         Positions at which its values are sought, mm or °; one that does not matter for a constant.
     periodic : bool
         The value at the first node is that one turn later too.
+    rigid : bool
+        No error, but what is unknown of a station or sphere: it is kept before all errors.
     """
 
     name: str
     argument: str
     nodes: Array
     periodic: bool = False
+    rigid: bool = False
 
     def weights(self, places: Array) -> Array:
         """Return the share of each value in the error at places (n, 6), shape (n, k)."""
@@ -118,7 +124,21 @@ def _nodes(letter: str, at: Array, nodes_max: int) -> tuple[Array, bool]:
             return around[:-1], True
     if len(distinct) <= nodes_max:
         return np.asarray(distinct, dtype=np.float64), False
+    often = _often(distinct, at)
+    if 2 < len(often) <= nodes_max:
+        return often, False
     return _equidistant(float(distinct[0]), float(distinct[-1]), nodes_max), False
+
+
+def _often(distinct: Array, at: Array) -> Array:
+    """Return where it was measured often, with the ends of the axis; none if that is not all over it."""
+    counts = np.unique(np.round(at, _DIGITS), return_counts=True)[1]
+    found = distinct[counts >= max(3.0, _OFTEN * len(at))]
+    span = float(np.ptp(distinct))
+    if len(found) < 3 or np.ptp(found) < _ALL_OVER * span:
+        return np.zeros(0)
+    ends = [end for end in (distinct[0], distinct[-1]) if np.min(np.abs(found - end)) > _BEYOND * span]
+    return np.unique(np.append(found, ends))
 
 
 def _equidistant(first: float, last: float, count: int) -> Array:
@@ -135,7 +155,7 @@ class Selection:
     ----------
     sought : sequence of Sought
     columns : array, shape (readings, values)
-        What each value does to the readings.
+        What each value does to the readings, or R of its QR decomposition.
 
     Attributes
     ----------
@@ -179,7 +199,7 @@ class Selection:
             count = len(sought.nodes)
             reference = int(np.argmin(np.abs(sought.nodes)))
             for i in range(count):
-                late = 1 + (i in (0, count - 1)) + 2 * (i == reference) if sought.argument else 0
+                late = 1 + (i in (0, count - 1)) + 2 * (i == reference) if sought.argument else -int(sought.rigid)
                 order.append((late, first + i))
             first += count
         return [value for _, value in sorted(order)]

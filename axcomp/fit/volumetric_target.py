@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from ..kinds import ListKind, Severity
 from ..lists import (
@@ -31,6 +33,7 @@ from ..lists import (
 )
 from ..measurement import MeasurementError
 from ..model import COMPENSATIONS_MAX, FILES_MAX, Interpolation, Volumetric
+from .keeping import owners
 
 _FILE_NAME = "vol_comp[i].file_name"
 _INDEX = re.compile(r"([0-9])\D*\Z")
@@ -68,6 +71,7 @@ class VolumetricTarget:
         self._etalon = False
         self._splicing = False
         self._comments = ""
+        self._before: dict[Path, bytes] = {}
         self._names_file = True
         self.reserved = 0
         if self._exists:
@@ -78,7 +82,8 @@ class VolumetricTarget:
         found = _INDEX.search(self.path.stem)
         index = min(int(found[1]), COMPENSATIONS_MAX - 1) if found else 0
         self.volumetric = replace(new, index=index)
-        self.parameters = self.path.parent / parameter_file(self.volumetric)
+        self.parameters = self.path.with_suffix(Path(parameter_file(self.volumetric)).suffix)
+        self._refuse_owned()
 
     def _open(self) -> None:
         findings = Findings()
@@ -88,6 +93,7 @@ class VolumetricTarget:
         if document is None:
             raise _unreadable(self.path, findings)
         self._document = document
+        self._before[self.path] = document.data
         values = document.read_as(ListKind.VOLUMETRIC, findings)
         if lists.start_up is not None:
             self.reserved = lists.start_up.integer("vol_comp[i].max_records", index)
@@ -108,11 +114,13 @@ class VolumetricTarget:
         named = files.named(lists.folder, names[0], (str(self.path), 0, "file[0]")) if names else None
         default = (names[0] if names else f"{self.path.stem}.csv").replace("\\", "/")
         self.parameters = named or lists.folder / default
-        if self.parameters.exists() and not self._etalon:
+        self._refuse_owned(files)
+        if self.parameters.exists():
             parameters = files.document(self.parameters)
             if parameters is None:
                 raise _unreadable(self.parameters, findings)
-            self._comments = _leading_comments(parameters.text)
+            self._before[self.parameters] = parameters.data
+            self._comments = "" if self._etalon else _leading_comments(parameters.text)
 
     def _machine(self, files: Files) -> tuple[MachineFiles, int]:
         """Return the machine the list belongs to, and its index there."""
@@ -131,6 +139,29 @@ class VolumetricTarget:
         for finding in findings:
             if finding.severity is Severity.ERROR and finding.code not in _HARMLESS:
                 raise MeasurementError(finding.file, finding.line, finding.message)
+
+    def before(self) -> dict[Path, bytes]:
+        """Return what the files held when they were read."""
+        return self._before
+
+    def _refuse_owned(self, files: Files | None = None) -> None:
+        def read(path: Path) -> bytes:
+            document = None if files is None else files.document(path)
+            return path.read_bytes() if document is None else document.data
+
+        if named := owners(self.parameters, [self.path], read):
+            others = ", ".join(one.name for one in named)
+            sentence = f"Its parameter file {self.parameters.name} is not overwritten: {others} names it too."
+            raise MeasurementError(str(self.path), 0, sentence)
+
+    def check_kinematics(self, given: Mapping[str, Any]) -> None:
+        """Refuse kinematics that are given, by field, and contradict the list; MeasurementError."""
+        for name, value in given.items():
+            held = getattr(self.volumetric, name)
+            if held != value:
+                option = name.replace("_", "-")
+                sentence = f"The list says {_plain(held)}, not {_plain(value)} as --{option} does; it stays as it is."
+                raise MeasurementError(str(self.path), 0, sentence)
 
     def with_errors(self, volumetric: Volumetric) -> tuple[bytes, bytes | None]:
         """Return the parameter file and the list for new errors; no list where the old one serves.
@@ -156,13 +187,22 @@ class VolumetricTarget:
 
     def _list(self, volumetric: Volumetric) -> bytes | None:
         if not self._exists:
-            return format_volumetric_list(volumetric).encode()
+            made = Document(self.path, format_volumetric_list(volumetric).encode(), ListKind.VOLUMETRIC)
+            made.set("file[0]", self.parameters.name)
+            return made.to_bytes()
         if self._names_file:
             return None
         new = [f"{'file[0]':<40} {self.parameters.name}", f"{'file_format[0]':<40} {ISG_CSV}"]
         document = self._document.copy()
         document.replace_entries(new, ["file[j]", "file_format[j]"], "Parameters")
         return document.to_bytes()
+
+
+def _plain(value: Any) -> str:
+    """Return a value of the kinematics for a sentence."""
+    if isinstance(value, tuple):
+        return " ".join(f"{one[0]}={one[1]}" if isinstance(one, tuple) else f"{one:g}" for one in value)
+    return str(value)
 
 
 def _unreadable(path: Path, findings: Findings) -> MeasurementError:

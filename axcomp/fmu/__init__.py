@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .bill import BILL as BILL, bill_of_archive as bill_of_archive
     from .content import NAME as NAME, PACKAGE as PACKAGE, Built as Built
     from .description import Description as Description, model_description as model_description
+    from .documentation import accompanying as accompanying
     from .instance import Instance as Instance
     from .native_package import (
         IMAGE as IMAGE,
@@ -37,6 +38,7 @@ else:
         bill="BILL bill_of_archive",
         content="Built NAME PACKAGE",
         description="Description model_description",
+        documentation="accompanying",
         instance="Instance",
         embedded="HEADERS SOURCES",
         native_package="IMAGE NoCompilerError package_native write_image",

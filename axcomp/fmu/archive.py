@@ -6,16 +6,22 @@ import contextlib
 import hashlib
 import io
 import os
+import subprocess
 import uuid
 import zipfile
 from collections.abc import Mapping
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every entry: the earliest that ZIP knows."""
 
-LEVEL = 9
+INSTALLED = "946684800"
+"""Date of generation by an installed package, s: 2000-01-01."""
+
+LEVEL = 6
+"""Of the compression: 9 takes four times as long and saves 5 %."""
 UNIX = 3
 MODE = 0o100644 << 16
 
@@ -42,12 +48,24 @@ def content_guid(parts: Mapping[str, bytes]) -> str:
 
 
 def generation_date() -> str:
-    """Return SOURCE_DATE_EPOCH as FMI writes a date, else a constant: a rebuild has the same bytes."""
-    seconds = os.environ.get("SOURCE_DATE_EPOCH", "946684800")
+    """Return SOURCE_DATE_EPOCH as FMI writes a date, else that of the sources: a rebuild has the same bytes."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH") or _date_of_sources()
     try:
         return datetime.fromtimestamp(int(seconds), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     except (ValueError, OverflowError, OSError):
         raise BuildError(f"SOURCE_DATE_EPOCH is no number of seconds: {seconds}") from None
+
+
+@cache
+def _date_of_sources() -> str:
+    """Return the seconds of the last commit of the checkout; of an installed package a constant."""
+    root = Path(__file__).resolve().parents[2]
+    if (root / ".git").exists() and (root / "build_fmu.py").exists():
+        command = ["git", "-C", str(root), "log", "-1", "--format=%ct"]
+        with contextlib.suppress(OSError, subprocess.SubprocessError):
+            found = subprocess.run(command, capture_output=True, text=True, check=True, timeout=10).stdout.strip()
+            return found or INSTALLED
+    return INSTALLED
 
 
 def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:

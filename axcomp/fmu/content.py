@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .. import __version__
-from ..interface import Naming, Variable, identifier, variables_of
+from ..interface import Naming, Types, Variable, identifier, variables_of
 from ..kinds import CompileError
 from ..lists import Finding, Reading, TypeName, read_machine
 from ..model import Machine
 from ..runtime import Compiled, compile_tables
 from .archive import BuildError, generation_date
 from .description import Description
+from .documentation import accompanying
 from .packing import packed_lists
 
 NAME = "axcomp"
@@ -69,6 +70,11 @@ class Built(NamedTuple):
         """The machine it is of."""
         return self.reading.machine
 
+    def accompanying(self, *, with_tables: bool = True) -> dict[str, bytes]:
+        """Return documentation, licence, icon and terminals by path; unless ``with_tables`` no findings either."""
+        machine = self.machine if with_tables else None
+        return accompanying(self.description, self.variables, machine, self.findings)
+
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What there was to say about its lists."""
@@ -81,6 +87,7 @@ def read_content(
     naming: Naming = "structured",
     axis_type: TypeName | None = None,
     name: str = NAME,
+    types: Types = "own",
 ) -> Built:
     """Read and compile the lists of a machine; ``name``: of the model, an identifier of C.
 
@@ -108,7 +115,7 @@ def read_content(
         naming=naming,
         generated=generation_date(),
     )
-    variables = variables_of(machine, naming, cycle_time)
+    variables = variables_of(machine, naming, cycle_time, types)
     return Built(reading, compiled, variables, description, *packed_lists(reading))
 
 

@@ -25,12 +25,28 @@ UNITS: dict[str, dict[str, float]] = {
 }
 """Units of variables: exponents of the SI base units, and the factor to them."""
 
+QUANTITIES = {
+    "s": "Time",
+    "mm": "Length",
+    "mm/s": "Velocity",
+    "mm/s2": "Acceleration",
+    "deg": "Angle",
+    "deg/s": "AngularVelocity",
+    "deg/s2": "AngularAcceleration",
+    "mA": "ElectricCurrent",
+}
+"""Unit → name of what is measured in it. The current of a friction compensation is in the drive's unit, which no list
+tells (P-COMP-00047): it has this name and no unit."""
+
 LOG_CATEGORIES = {
     "logStatusWarning": "A list was not taken as it is written, or an unusual call",
     "logStatusError": "Something does not act, or a call could not be carried out",
     "logAll": "Everything else",
 }
 
+
+AUTHOR = "the axcomp authors"
+"""Of libraries, sources and description; the tables are the machine's."""
 
 STEPS = 1000
 """Steps of the default experiment: FMPy doubles the step size until there are no more than these."""
@@ -77,8 +93,11 @@ def model_description(description: Description, variables: Sequence[Variable], g
         modelName=description.name,
         guid=guid,
         description=description.text,
+        author=AUTHOR,
         version=description.version,
         generationTool=description.tool,
+        copyright=f"Copyright {AUTHOR}",
+        license="MIT",
         generationDateAndTime=description.generated,
         variableNamingConvention=description.naming,
     )
@@ -128,8 +147,15 @@ def _add_variables(root: Element, variables: Sequence[Variable]) -> None:
         if variable.causality != "input":
             node.set("initial", "calculated" if output else "exact")
         kind = SubElement(node, variable.type)
-        if variable.unit:
-            kind.set("unit", variable.unit)
+        quantity = QUANTITIES.get(variable.unit, "ElectricCurrent" if variable.quantity == "current" else "")
+        attributes: dict[str, float | str | None] = {"quantity": quantity or None, "unit": variable.unit or None}
+        if variable.limits is not None:
+            attributes["min"], attributes["max"] = variable.limits
+        if variable.type == "Real":
+            attributes["nominal"] = variable.nominal
+        for name, value in attributes.items():
+            if value is not None:
+                kind.set(name, _text(value))
         if not output:
             kind.set("start", _text(variable.start))
 

@@ -18,11 +18,11 @@ TABLES_SOURCE = "tables.c"
 _OWN_NAME = re.compile(rb"\baxcomp_(?=\w)")
 
 
-def embedded_sources(content: Built, guid: str) -> dict[str, bytes]:
+def embedded_sources(content: Built, guid: str, *, real_only: bool = False) -> dict[str, bytes]:
     """Return the files in ``sources``, and what TwinCAT must know to compile them."""
     name = content.description.name
     texts = {
-        TABLES_SOURCE: tables_source(content.compiled, guid).encode(),
+        TABLES_SOURCE: tables_source(content.compiled, guid, real_only=real_only).encode(),
         "config.h": _configuration(name, content.compiled.tables).encode(),
         **{source: source_bytes(source) for source in (*SOURCES, *HEADERS)},
     }

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import math
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from ..interface import ERROR_CALL, TYPE_NAMES, Controls, Slot, Value, every_slot
+from ..interface import ERROR_CALL, TYPE_NAMES, Controls, Slot, Value, every_slot, whole
 from ..kernel import ERROR_UPDATE
 from ..kinds import Severity
 from ..lists import read_machine
 from ..model import Machine
-from ..runtime import Runtime
+from ..runtime import ON_INSTANT, Runtime
 from .packed_interface import FILE_NAME, Interface
 from .saved import Saved
 
@@ -59,7 +60,8 @@ class Instance:
         self._told: set[str] = set()
         self._resources = Path(resources)
         self._interface = Interface()
-        self._start_time = 0.0
+        self._start_time = self._time = 0.0
+        self._stop_time = math.inf
         self._initializing = False
         self._reload_seen = False
         self.controls = Controls()
@@ -102,10 +104,12 @@ class Instance:
         records = (runtime.inputs, runtime.outputs, self.controls)
         count = len(runtime.inputs.volumetric)
         for reference, declaration, slot in every_slot(len(runtime.machine.axes), *records, volumetrics=count):
-            name = TYPE_NAMES[type(declaration.start)]
-            self._readable[name][reference] = slot
+            name, place = TYPE_NAMES[type(declaration.start)], slot
+            if self._interface.types == "real" and name in AS_REAL:
+                name, place = "Real", slot.as_real(AS_REAL[name])
+            self._readable[name][reference] = place
             if declaration.causality != "output":
-                self._settable[name][reference] = slot
+                self._settable[name][reference] = place
 
     # Reports
 
@@ -167,9 +171,10 @@ class Instance:
 
     # Time
 
-    def set_up(self, start_time: float) -> None:
-        """Take the start time (fmi2SetupExperiment)."""
+    def set_up(self, start_time: float, stop_time: float | None = None) -> None:
+        """Take start and stop time (fmi2SetupExperiment); None: none is known."""
         self._start_time = start_time
+        self._stop_time = math.inf if stop_time is None else stop_time
 
     def enter_initialization(self) -> None:
         """From now on outputs are computed whenever they are read (fmi2EnterInitializationMode)."""
@@ -179,6 +184,7 @@ class Instance:
         """Compute the outputs that belong to the start time (fmi2ExitInitializationMode)."""
         self._begin()
         self._initializing = False
+        self._time = self._start_time
 
     @guarded
     def _begin(self) -> None:
@@ -191,15 +197,29 @@ class Instance:
         self.runtime.begin(self._start_time)
 
     @guarded
-    def do_step(self, time: float, duration: float) -> None:
-        """Run the cycles whose instants lie in [time, time + duration) with the inputs held."""
+    def do_step(self, time: float, duration: float) -> bool:
+        """Run the cycles whose instants lie in [time, time + duration) with the inputs held.
+
+        False: nothing was done, for it would go back in time or beyond the stop time.
+        """
+        tolerance, end = ON_INSTANT * self.runtime.tables.cycle_time, time + duration  # hosts add up their steps
+        refused = ""
+        if time < self._time - tolerance:
+            refused = f"a step from {time:g} s would go back, the last one ended at {self._time:g} s"
+        elif end > self._stop_time + tolerance:
+            refused = f"a step to {end:g} s goes beyond the stop time, {self._stop_time:g} s"
+        if refused:
+            self.tell(Severity.ERROR, refused)
+            return False
         if self.controls.reload and not self._reload_seen:
             self._reload_seen = True
             self._reload()
         self._reload_seen = self.controls.reload
-        self.runtime.advance(time + duration)
+        self.runtime.advance(end)
+        self._time = end
         for notice in self.runtime.notices():
             self.tell(Severity.WARNING, notice)
+        return True
 
     def _reload(self) -> None:
         """Read the lists in ``update_path``; they are refused as a whole when anything about them is wrong."""
@@ -230,6 +250,8 @@ class Instance:
             self._reload_seen,
             self._initializing,
             self._start_time,
+            self._stop_time,
+            self._time,
             None if machine is self._own_machine else machine,
             self.runtime.save(),
         )
@@ -251,6 +273,14 @@ class Instance:
         self._reload_seen = saved.reload_seen
         self._initializing = saved.initializing
         self._start_time = saved.start_time
+        self._stop_time = saved.stop_time
+        self._time = saved.time
 
+
+AS_REAL: dict[str, Callable[[float], Value]] = {
+    "Integer": whole,
+    "Boolean": lambda value: not math.isnan(value) and whole(value) != 0,
+}
+"""Type of a variable that is Real in the model description → what a number means there."""
 
 ZEROS: dict[str, Value] = {name: kind() for kind, name in TYPE_NAMES.items()}

@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from ..interface import Naming
+from ..interface import Naming, Types
 from ..lists import TypeName
 from ..model import CYCLE_TIME
 from ..native import (
@@ -50,6 +50,8 @@ def package_native(
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
     name: str = NAME,
+    types: Types = "own",
+    with_lists: bool = True,
 ) -> Built:
     """Write the FMU of a machine; a folder as output: a file of the model's name in it.
 
@@ -69,6 +71,10 @@ def package_native(
         As in ``read_machine``.
     name : str
         Name and identifier of the model; all that is visible outside its sources begins with it.
+    types : str
+        ``own``, or ``real``: Real instead of Boolean and Integer, for importers that take everything as Real.
+    with_lists : bool
+        False: of the lists only the tables that were compiled from them go into the FMU.
 
     Raises
     ------
@@ -77,21 +83,26 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type, name)
-    files = {f"resources/{name}": data for name, data in content.lists.items()}
-    libraries, note = _libraries(platforms, name)
-    files.update(libraries)
+    content = read_content(lists, cycle_time, naming, axis_type, name, types)
+    files = {f"resources/{file}": data for file, data in content.lists.items()} if with_lists else {}
+    libraries = _libraries(platforms)
+    for platform, library in libraries.items():
+        files[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = library
     description = replace(
-        content.description, capabilities={"needsExecutionTool": False}, source_files=(*SOURCES, TABLES_SOURCE)
+        content.description,
+        capabilities={"needsExecutionTool": False, "canInterpolateInputs": True},
+        source_files=(*SOURCES, TABLES_SOURCE),
     )
     guid = _guid(content)
-    image = image_of(content.compiled, guid, content.findings)
+    image = image_of(content.compiled, guid, content.findings, real_only=types == "real")
     files[f"resources/{IMAGE}"] = image
-    files.update(embedded_sources(content, guid))
+    files.update(embedded_sources(content, guid, real_only=types == "real"))
     files["modelDescription.xml"] = model_description(description, content.variables, guid)
+    files.update(content.accompanying(with_tables=with_lists))
     path = output_path(output, f"{name}.fmu")
     write_fmu(path, {**files, BILL: bill_of_fmu(files)})
-    return content._replace(path=path, note=note)
+    reason = why_not_prebuilt()
+    return content._replace(path=path, note=f"{reason}: compiled for {', '.join(libraries)}" if reason else "")
 
 
 def write_image(
@@ -122,21 +133,20 @@ def _guid(content: Built) -> str:
     return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "", content.findings)})
 
 
-def _libraries(platforms: Sequence[str], name: str) -> tuple[dict[str, bytes], str]:
-    """Return the libraries by their paths, and what there is to say about them.
+def _libraries(platforms: Sequence[str]) -> dict[str, bytes]:
+    """Return the library of each platform, without any: of all, or of this machine's where they must be compiled.
 
-    They come with the package; where that does not serve, a compiler makes them, by default this machine's own one.
+    They come with the package; where those do not serve, a compiler makes them.
     """
     reason = why_not_prebuilt()
-    wanted = platforms or ((own_platform(),) if reason else tuple(PLATFORMS))
-    files = {}
-    for platform in wanted:
+    libraries = {}
+    for platform in platforms or ((own_platform(),) if reason else PLATFORMS):
         try:
             library = _compiled(platform, (*compiler_of(platform),)) if reason else file_bytes(prebuilt_path(platform))
         except CompilerError as error:
             raise NoCompilerError(f"{reason}; {error}") from None
-        files[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = library
-    return files, f"{reason}: compiled for {', '.join(wanted)}" if reason else ""
+        libraries[platform] = library
+    return libraries
 
 
 @cache

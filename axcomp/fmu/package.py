@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..interface import Naming, Variable
+from ..interface import Naming, Types, Variable
 from ..lists import TypeName
 from ..model import CYCLE_TIME, fmu_sources, sentence
 from .archive import BuildError, content_guid, file_bytes, write_fmu
@@ -29,6 +29,7 @@ def package_axcomp(
     external_tool: bool = True,
     axis_type: TypeName | None = None,
     name: str = NAME,
+    types: Types = "own",
 ) -> Built:
     """Write the FMU of a machine that runs in Python; parameters as in ``package_native``.
 
@@ -40,12 +41,13 @@ def package_axcomp(
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type, name)
-    interface = Interface.of(content.machine, content.start, cycle_time, axis_type)
+    content = read_content(lists, cycle_time, naming, axis_type, name, types)
+    interface = Interface.of(content.machine, content.start, cycle_time, axis_type, types)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})
     sources = (fmu_sources() / "axcomp_slave.py", PACKAGE)
-    return content._replace(path=write_python_fmu(output, description, content.variables, sources, resources))
+    shown = content.accompanying()
+    return content._replace(path=write_python_fmu(output, description, content.variables, sources, resources, shown))
 
 
 def write_python_fmu(
@@ -54,14 +56,17 @@ def write_python_fmu(
     variables: Sequence[Variable],
     sources: tuple[Path, Path],
     resources: Mapping[str, bytes],
+    shown: Mapping[str, bytes],
 ) -> Path:
-    """Put an FMU together: slave and package, resources, pythonfmu, model description."""
+    """Put an FMU together: slave and package, resources, pythonfmu, model description, and what tools show of it."""
     path = output_path(output, f"{description.name}.fmu")
     module, files = renamed_sources(*sources)
     files = {f"resources/{key}": value for key, value in {**files, **resources}.items()}
     files["resources/slavemodule.txt"] = module.encode()
     files.update(_pythonfmu(description.name))
-    guid = content_guid({**files, "modelDescription.xml": model_description(description, variables, "")})
+    undated = model_description(replace(description, generated=""), variables, "")
+    guid = content_guid({**files, "modelDescription.xml": undated})
+    files.update(shown)
     files["modelDescription.xml"] = model_description(description, variables, guid)
     write_fmu(path, {**files, BILL: bill_of_fmu(files)})
     return path

@@ -9,6 +9,7 @@ import json
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..interface import Types
 from ..lists import TypeName
 from ..model import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
 
@@ -22,31 +23,35 @@ class Interface:
 
     ``lists``: start-up list or single list, relative to ``resources``, with ``/``; ``cycle_time``: of the position
     controller, s; ``axes``: those that have variables, in their order, without compensations: a corrected setpoint is
-    the setpoint; ``axis_type``: what was said of axes without axis lists (``read_machine``).
+    the setpoint; ``axis_type``: what was said of axes without axis lists (``read_machine``); ``types``: of the
+    variables.
     """
 
     lists: str = ""
     cycle_time: float = CYCLE_TIME
     axes: tuple[Axis, ...] = ()
     axis_type: TypeName | None = None
+    types: Types = "own"
 
     @classmethod
-    def of(cls, machine: Machine, lists: str, cycle_time: float, axis_type: TypeName | None = None) -> Interface:
+    def of(
+        cls, machine: Machine, lists: str, cycle_time: float, axis_type: TypeName | None = None, types: Types = "own"
+    ) -> Interface:
         """Return the interface of an FMU built for a machine."""
         axes = tuple(Axis(axis.number, axis.name, axis.type) for axis in machine.axes)
-        return cls(lists, cycle_time, axes, axis_type)
+        return cls(lists, cycle_time, axes, axis_type, types)
 
     @classmethod
     def from_json(cls, text: str) -> Interface:
         """Return what ``to_json`` wrote; ValueError, KeyError or TypeError if it is something else."""
         values: dict[str, Any] = json.loads(text)
         axes = tuple(Axis(**{**axis, "type": AxisType(axis["type"])}) for axis in values["axes"])
-        return cls(str(values["lists"]), float(values["cycle_time"]), axes, values.get("axis_type"))
+        return cls(str(values["lists"]), float(values["cycle_time"]), axes, values.get("axis_type"), values["types"])
 
     def to_json(self) -> str:
         """Return the text of the file."""
         axes = [{"number": axis.number, "name": axis.name, "type": axis.type.value} for axis in self.axes]
-        values = {"lists": self.lists, "cycle_time": self.cycle_time, "axes": axes, "axis_type": self.axis_type}
+        values = {name: getattr(self, name) for name in ("lists", "cycle_time", "axis_type", "types")} | {"axes": axes}
         return json.dumps(values, indent=2) + "\n"
 
     def bare(self) -> Machine:

@@ -6,7 +6,7 @@ import os
 from pathlib import Path, PurePosixPath
 
 from ..kinds import ListKind
-from ..lists import Document, Reading, read_machine
+from ..lists import Document, Project, Reading, read_machine
 from .archive import BuildError
 
 FOLDER = "machine"
@@ -25,7 +25,8 @@ def packed_lists(reading: Reading) -> tuple[str, dict[str, bytes]]:
         If the copies would not be found: lists can name files by absolute paths.
     """
     start = _absolute(reading.path)
-    found = {_absolute(path): document for path, document in reading.documents.items()}
+    # What stands in a file goes with it.
+    found = {_absolute(path): document for path, document in reading.documents.items() if document.outer is None}
     first = start.parent if start in found else start
     try:
         root = Path(os.path.commonpath([first, *(path.parent for path in found)]))
@@ -55,6 +56,7 @@ def _packed(root: Path, path: Path) -> str:
 def _found_again(packed: str, files: dict[str, Document]) -> set[str]:
     """Return which files are read when they lie somewhere else. What tables hold does not matter to that."""
     moved = [
-        Document(name, document.to_bytes() if document.kind in _NAMING else b"") for name, document in files.items()
+        Document(name, document.to_bytes() if document.kind in _NAMING or isinstance(document, Project) else b"")
+        for name, document in files.items()
     ]
     return {Path(os.path.normpath(path)).as_posix() for path in read_machine(packed, documents=moved).documents}

@@ -15,7 +15,7 @@ from .. import kinds, model
 from ..model import Machine
 from ..runtime import SnapshotError
 
-MAGIC = b"axcompF1"
+MAGIC = b"axcompF2"
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,8 @@ class Saved:
     reload_seen: bool
     initializing: bool
     start_time: float
+    stop_time: float
+    time: float
     machine: Machine | None
     snapshot: bytes
 

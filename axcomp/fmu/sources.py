@@ -48,9 +48,9 @@ def needed_files(slave: Path, package: Path) -> list[Path]:
     while waiting:
         path, module, is_package = waiting.pop()
         parent = module if is_package else module[:-1]
-        by_name = (
-            [(*parent, one.stem) for one in path.parent.glob("*.py")] if LOADS_BY_NAME in path.read_bytes() else []
-        )
+        by_name = []
+        if LOADS_BY_NAME in path.read_bytes():
+            by_name = [(*parent, one.stem) for one in path.parent.glob("*.py") if one.stem != "__main__"]
         for base in (*_imports(path, parent, package.name), *by_name):
             for end in range(len(base) + 1):
                 needed = _file_of(package, base[:end])

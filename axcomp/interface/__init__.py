@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from .errors import ERROR_CALL, ERRORS
-from .reference import PAGE, README, readme_with_section, reference_page
-from .slot import Slot, slot_in, steps_of
-from .variable import BLOCK, TYPE_NAMES, Value, Variable, whole, with_causality
-from .variables import (
+from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
     MACHINE_BLOCK,
     OF_MACHINE,
     OF_VOLUMETRIC,
     VOLUMETRIC_BLOCK,
-    Controls,
     Declaration,
-    Naming,
-    by_name,
-    every_slot,
-    identifier,
-    slot_of,
-    variables_of,
 )
+from .errors import ERROR_CALL, ERRORS
+from .reference import PAGE, README, readme_with_section, reference_page
+from .slot import Slot, slot_in, steps_of
+from .variable import BLOCK, TYPE_NAMES, Value, Variable, whole, with_causality
+from .variables import Controls, Naming, Types, by_name, every_slot, identifier, slot_of, variables_of
 
 __all__ = [
     "AXIS_BLOCK",
@@ -40,6 +34,7 @@ __all__ = [
     "Declaration",
     "Naming",
     "Slot",
+    "Types",
     "Value",
     "Variable",
     "by_name",

@@ -6,9 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from ..kinds import KIND_NAMES, KINDS
 from ..model import models
-from .errors import ERRORS
-from .variable import BLOCK, TYPE_NAMES
-from .variables import (
+from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
     MACHINE_BLOCK,
@@ -19,6 +17,8 @@ from .variables import (
     VOLUMETRIC_BLOCK,
     Declaration,
 )
+from .errors import ERRORS
+from .variable import BLOCK, TYPE_NAMES
 
 PAGE = models().parent / "docs" / "fmu-reference.md"
 README = models().parent / "README.md"
@@ -27,11 +27,18 @@ README_BEGIN, README_END = "<!-- variables -->", "<!-- end of variables -->"
 HEAD = """\
 # Variables of axcomp.fmu
 
-Written by `python -m axcomp.interface` from `axcomp/interface/variables.py`.
+Written by `python -m axcomp.interface` from `axcomp/interface/declarations.py`.
 
 `NAME` is the name of an axis (`kopf.log_achs_name`, else `axis<number>`) with `_` for what an identifier cannot hold.
 Only what is configured appears. Units are those of the axis: mm or deg, mm/s or deg/s, mm/s2 or deg/s2, each defined by
-its factor to SI units, so that tools convert. With `--naming flat` every `.` is a `_`.
+its factor to SI units, so that tools convert. With `--naming flat` every `.` is a `_`; with `--types real` Booleans
+and Integers are Real: a number then means the nearest integer, and false where that is 0.
+
+Every input starts with 0 or false, which means what the lists say: a host that does not connect one changes nothing.
+A switch (`NAME.KIND.switch`, `volumetric[j].switch`) is 0 for automatic activation as the lists say, 1 for on, -1 for
+off. Its changes are the commands; the same value again commands nothing, so a manual compensation which program end
+has switched off needs 0 or -1 before it gets 1 again. Any other value commands nothing and sets `NAME.error`.
+`NAME.KIND.offset` and `NAME.KIND.coefficient` are added to what the lists say.
 
 A value reference is `{block} · block + identifier`, the same in every FMU: block {machine} is the machine's, block
 {axis} + i that of axis i = 0 … 31 in the order of the lists, block {volumetric} + j that of volumetric compensation
@@ -44,6 +51,12 @@ STEPS = """\
 * The cycles of the position controller lie at start time + k · `cycle_time`. A communication step [t, t + h) runs those
   whose instants fall into it, with the inputs held; if none does, the outputs hold. How a stretch of time is divided
   into steps therefore changes nothing at the instants.
+* `fmi2SetRealInputDerivatives` (native FMU): an input goes on along its first derivative during the next step, each
+  cycle gets its value at its own instant, and behind the step the input stays where it has come to. A host with steps
+  of 10 ms that sets them has the friction and the corrections of one with steps of a cycle, as far as its inputs are
+  linear inside its steps. Derivatives of higher order are not used.
+* Steps that go back in time, or beyond the stop time if there is one, are refused; a hundredth of a cycle is no matter,
+  for hosts add up their steps. Going back is a matter of `fmi2SetFMUstate`.
 * The outputs read after a step belong to the inputs set before it: FMI 2.0 co-simulation has no feedthrough inside a
   step. At the end of initialization they belong to the start values.
 * `reload`: its rising edge acts at the beginning of a step. What it reads is refused as a whole when it has an error,
@@ -54,8 +67,9 @@ STEPS = """\
 
 ## Native and Python
 
-`axcomp build` makes the native FMU: libraries for the platforms asked for, and C sources. With `--runtime python` it
-makes one whose libraries start Python. Variables, value references and results are the same in every bit; these differ:
+`axcomp build` makes the native FMU: libraries for all platforms or those asked for, and C sources. With
+`--runtime python` it makes one whose libraries start Python. Variables, value references and results are the same in
+every bit; these differ:
 
 | | native | `--runtime python` |
 | --- | --- | --- |
@@ -67,14 +81,29 @@ own one; lists with errors are refused | a start-up list, its folder or a single
 compensation acts, but its variables are not there |
 | Serialized state after `reload` | comes back in instances that have read the same images | \
 comes back in any instance |
+| Derivatives of inputs | are used | are refused by pythonfmu: inputs are held |
+| Steps back in time or beyond the stop time | `fmi2Error` | `fmi2Discard`, which is all that pythonfmu offers |
 | A call that cannot be carried out | returns an error, and the log says why | sets `NAME.error`; the log and standard \
 error say why |
 | Unpacked under any path | yes | not where it holds one of `ü + ( ) [ ] # , %`: pythonfmu's library fails there |
 
 The native FMU's tables lie in `resources/tables.bin`; it belongs to the guid, so that of another FMU is refused.
+Instances of a library share them; an instance has some 10 kB besides, and its serialized state 1 kB for each axis.
+Memory is allocated when an instance or a state is made or `reload` is set, not in steps.
+
 `fmpy compile axcomp.fmu`, or a host that takes source-code FMUs, compiles the sources with the tables in them
-(`tables.c`): such a library reads no file unless `reload` asks for one. Memory is allocated when an instance or a state
-is made or `reload` is set, not in steps.
+(`tables.c`): no file is read, nothing is allocated or logged, and `reload` is refused. With `--no-lists` no list, no
+table as text and no finding is in the FMU, only the compiled tables.
+
+## What else is in the FMU
+
+* `documentation/index.html`: the findings, tables and variables of this machine; `documentation/licenses`.
+* `model.png`, and `terminalsAndIcons/terminalsAndIcons.xml` (FMI 2.0.4) with a terminal for each axis, whose ports are
+  its variables.
+* The date of generation is SOURCE_DATE_EPOCH where that is set, else the last commit of the checkout, else, of an
+  installed package, 2000-01-01: a rebuild has the same bytes. The guid does not depend on it.
+* `min` and `max` are what is of use: beyond them an input is not taken. `current` has no unit: it is in the drive's
+  own, which no list tells (P-COMP-00047).
 
 ## Errors
 

@@ -27,6 +27,15 @@ class Slot(NamedTuple):
         """Set the value."""
         self.write(self.container, self.key, value)
 
+    def as_real(self, kind: Callable[[float], Any]) -> Slot:
+        """Return the same place as a Real; ``kind`` makes of it what is there."""
+        return Slot(
+            lambda container, key: float(self.read(container, key)),
+            lambda container, key, value: self.write(container, key, kind(value)),
+            self.container,
+            self.key,
+        )
+
 
 def steps_of(path: str) -> list[str | int]:
     """Return the fields and indices of a path such as ``compensation.cross.need[2]``."""

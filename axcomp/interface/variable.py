@@ -10,6 +10,7 @@ from typing import Literal
 Value = float | int | bool | str
 
 Causality = Literal["input", "output", "parameter"]
+Limits = tuple[float, float]
 Variability = Literal["continuous", "discrete", "fixed", "tunable"]
 
 BLOCK = 64
@@ -46,6 +47,10 @@ class Variable:
         Number of its volumetric compensation; None: it belongs to none.
     quantity : str
         Its name behind that of its axis or compensation: ``setpoint``, ``cross.correction``.
+    limits : (float, float) or None
+        Least and largest value that is of use; None: any is.
+    nominal : float or None
+        About how large its values are.
     """
 
     name: str
@@ -60,6 +65,8 @@ class Variable:
     field: str = ""
     volumetric: int | None = None
     quantity: str = ""
+    limits: Limits | None = None
+    nominal: float | None = None
 
     @property
     def type(self) -> str:

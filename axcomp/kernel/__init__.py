@@ -46,6 +46,7 @@ from .records import (
 )
 from .switching import CYCLES_MAX, ramp
 from .trigonometry import cosine, sine
+from .volumetric import LARGEST_TOOL
 from .volumetric_errors import errors_at, find_cell
 from .volumetric_model import FRAME, carry_to_workpiece, correction_at, correction_with
 from .volumetric_records import (
@@ -101,6 +102,7 @@ __all__ = [
     "INTERPOLATE_SCATTER",
     "IN_BOX",
     "LARGEST",
+    "LARGEST_TOOL",
     "LEADSCREW",
     "LOOKAHEAD_MAX",
     "PLANE",

@@ -93,13 +93,13 @@ def compensation_value(
     states: CompensationStates,
     given: CompensationInputs,
     motion: Motion,
-    axis: int,
+    own: AxisMotion,
     added: float,
     cycle_time: float,
 ) -> float:
     """Return what a kind adds to the setpoint or the current of an axis at full weight.
 
-    ``added``: to the setpoint before the leadscrew.
+    ``own``: the motion of the axis; ``added``: to its setpoint before the leadscrew.
     """
     if kind == CROSS:
         return cross_value(pool, tables.cross, states.cross, motion)
@@ -108,13 +108,13 @@ def compensation_value(
     if kind == CROSSTALK:
         return crosstalk_value(pool, tables.crosstalk, states.crosstalk, motion)
     if kind == TEMPERATURE:
-        return temperature_value(tables.temperature, states.temperature, motion.axis[axis].setpoint)
+        return temperature_value(tables.temperature, states.temperature, own.setpoint)
     if kind == LEADSCREW:
-        position = leadscrew_input(tables.leadscrew, motion.axis[axis].setpoint, added)
+        position = leadscrew_input(tables.leadscrew, own.setpoint, added)
         return leadscrew_value(pool, tables.leadscrew, states.leadscrew, position)
     if kind == BACKLASH:
-        return backlash_value(tables.backlash, states.backlash, motion.axis[axis].direction)
-    return friction_current(pool, tables.friction, states.friction, given.friction, motion.axis[axis], cycle_time)
+        return backlash_value(tables.backlash, states.backlash, own.direction)
+    return friction_current(pool, tables.friction, states.friction, given.friction, own, cycle_time)
 
 
 def settled_value(

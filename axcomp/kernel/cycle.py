@@ -11,9 +11,9 @@ from __future__ import annotations
 from .activation import activate_if_stirred
 from .compensations import FRICTION, LEADSCREW, compensation_value, has_inputs, renew
 from .interpolation import nearest
-from .motion import AxisMotion, move_axis
+from .motion import AxisMotion, Motion, move_axis
 from .record import Vec
-from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, Inputs, Outputs, State, Tables
+from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
 from .shift import absorb_switch, release_shift
 from .switching import blend_in, contribution_of
 from .volumetric import compensate_volume, report_tool_length
@@ -25,30 +25,36 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
     """Run one cycle: the outputs belong to these inputs."""
     references_changed = False
     for i in range(tables.axis_count):
-        accept(tables, state.axis[i], state.motion.axis[i], inputs, i)
-        if inputs.axis[i].unreferenced != state.axis[i].unreferenced:
-            state.axis[i].unreferenced = inputs.axis[i].unreferenced
+        own = state.axis[i]
+        given = inputs.axis[i]
+        accept(tables.axis[i].modulo_range, own, state.motion.axis[i], given, inputs.derive_motion, tables.cycle_time)
+        if given.unreferenced != own.unreferenced:
+            own.unreferenced = given.unreferenced
             references_changed = True
     if tables.volumetrics > 0:
         compensate_volume(tables, pool, state, inputs, outputs)
     for i in range(tables.axis_count):
+        table = tables.axis[i]
         axis = state.axis[i]
+        out = outputs.axis[i]
         if inputs.reset:
             axis.error = 0
-        moving = state.motion.axis[i].moving
-        activate_if_stirred(tables.axis[i], axis, inputs, inputs.axis[i], outputs.axis[i], moving, references_changed)
+        given = inputs.axis[i]
+        motion = state.motion.axis[i]
+        activate_if_stirred(table, axis, inputs, given, out, motion.moving, references_changed)
         if axis.held:
-            outputs.axis[i].error = ERROR_INPUT
+            out.error = ERROR_INPUT
         else:
-            correct_axis(tables, pool, state, inputs.axis[i], outputs.axis[i], i)
-            outputs.axis[i].error = axis.error
+            correct_axis(table, pool, axis, state.motion, motion, given, out, tables.cycle_time)
+            out.error = axis.error
     if tables.volumetrics > 0:
         report_tool_length(tables, inputs, outputs)
 
 
-def accept(tables: Tables, axis: AxisState, motion: AxisMotion, inputs: Inputs, i: int) -> None:
+def accept(
+    modulo_range: float, axis: AxisState, motion: AxisMotion, given: AxisInputs, derive_motion: bool, cycle_time: float
+) -> None:
     """Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle."""
-    given = inputs.axis[i]
     axis.held = not (
         -LARGEST < given.setpoint < LARGEST
         and -LARGEST < given.velocity < LARGEST
@@ -61,26 +67,32 @@ def accept(tables: Tables, axis: AxisState, motion: AxisMotion, inputs: Inputs, 
             motion.setpoint = given.setpoint
         velocity = given.velocity
         acceleration = given.acceleration
-        if inputs.derive_motion:
-            way = nearest(given.setpoint - motion.setpoint, tables.axis[i].modulo_range)
-            velocity = way / tables.cycle_time
-            acceleration = (velocity - motion.velocity) / tables.cycle_time
-        move_axis(motion, given.setpoint, velocity, tables.cycle_time, tables.axis[i].modulo_range)
+        if derive_motion:
+            way = nearest(given.setpoint - motion.setpoint, modulo_range)
+            velocity = way / cycle_time
+            acceleration = (velocity - motion.velocity) / cycle_time
+        move_axis(motion, given.setpoint, velocity, cycle_time, modulo_range)
         motion.acceleration = acceleration
 
 
-def correct_axis(tables: Tables, pool: Vec, state: State, given: AxisInputs, out: AxisOutputs, i: int) -> None:
-    """Correct one axis."""
-    table = tables.axis[i]
-    axis = state.axis[i]
-    motion = state.motion.axis[i]
+def correct_axis(
+    table: AxisTable,
+    pool: Vec,
+    axis: AxisState,
+    motions: Motion,
+    motion: AxisMotion,
+    given: AxisInputs,
+    out: AxisOutputs,
+    cycle_time: float,
+) -> None:
+    """Correct one axis, whose motion is among ``motions``."""
     if axis.shift.pending:
         release_shift(table.shift_cycles, axis.shift, motion.moving)
 
     correction = 0.0
     for k in range(table.kinds):
         kind = table.kind[k]
-        contribution = correct_by(kind, tables, pool, state, given, out, i, correction)
+        contribution = correct_by(kind, table, pool, axis, motions, motion, given, out, correction, cycle_time)
         if kind < FRICTION:
             correction += contribution
     out.volumetric_correction = axis.volumetric_correction
@@ -94,14 +106,21 @@ def correct_axis(tables: Tables, pool: Vec, state: State, given: AxisInputs, out
 
 
 def correct_by(
-    kind: int, tables: Tables, pool: Vec, state: State, given: AxisInputs, out: AxisOutputs, i: int, correction: float
+    kind: int,
+    table: AxisTable,
+    pool: Vec,
+    axis: AxisState,
+    motions: Motion,
+    motion: AxisMotion,
+    given: AxisInputs,
+    out: AxisOutputs,
+    correction: float,
+    cycle_time: float,
 ) -> float:
-    """Return what a kind adds to axis i in this cycle, after ``correction``.
+    """Return what a kind adds to an axis in this cycle, after ``correction``.
 
     What NO_MOVE absorbs of it goes into the shift. Without a table it adds what is left of the one it had.
     """
-    table = tables.axis[i]
-    axis = state.axis[i]
     switching = table.switching[kind]
     own = axis.switching[kind]
     value = 0.0
@@ -109,8 +128,7 @@ def correct_by(
         axis.added = correction + axis.shift.before.now
     if switching.configured:
         if has_inputs(kind):
-            setpoint = state.motion.axis[i].setpoint
-            lost = renew(kind, table.compensation, axis.compensation, given.compensation, setpoint)
+            lost = renew(kind, table.compensation, axis.compensation, given.compensation, motion.setpoint)
             if axis.started:
                 blend_in(switching, own, own.weight * lost)
         value = compensation_value(
@@ -119,10 +137,10 @@ def correct_by(
             table.compensation,
             axis.compensation,
             given.compensation,
-            state.motion,
-            i,
+            motions,
+            motion,
             axis.added,
-            tables.cycle_time,
+            cycle_time,
         )
     contribution = contribution_of(switching, own, value)
     if not axis.settled and kind < FRICTION:

@@ -1,7 +1,8 @@
 """Records of the kernel as plain Python: nothing here is needed by the C side.
 
 A record is a dataclass with slots whose fields are float, int, bool, another record, ``Vec`` (a table owned by someone
-else) or ``Annotated[list[T], N]`` (N elements of T; with ``APART`` behind it at most N). ``zero`` makes one with everything 0; C makes it with memset.
+else) or ``Annotated[list[T], N]`` (N elements of T; with ``APART`` behind it, at most N). ``zero`` makes one with
+everything 0; C makes it with memset.
 """
 
 from __future__ import annotations

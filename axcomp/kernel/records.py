@@ -99,7 +99,7 @@ class Tables:
 
 @dataclass(slots=True)
 class State:
-    """Everything that is remembered from cycle to cycle; it holds no references, a copy is a snapshot."""
+    """Everything that is remembered from cycle to cycle; a copy with its lists is a snapshot."""
 
     motion: Motion
     axis: Annotated[list[AxisState], AXES, APART]

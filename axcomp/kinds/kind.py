@@ -39,6 +39,9 @@ class Values(Protocol):
     def cells(self, name: str) -> Mapping[tuple[int, ...], Any]:
         """Return indices → value and line of all that is given for a parameter."""
 
+    def count(self, name: str) -> int:
+        """Return how many entries are given for a parameter."""
+
     def given(self, name: str, *indices: int) -> bool:
         """Whether an entry is there."""
 
@@ -226,7 +229,7 @@ class Kind(ABC, Generic[C]):
 
     def is_present(self, values: Values) -> bool:
         """Tell whether a list has entries of a table, or says that there should be some."""
-        given = any(values.cells(name) for name in self.columns)
+        given = any(values.count(name) for name in self.columns)
         return given or any(values.given(name) and values.integer(name) > 0 for name in self.sizes)
 
     @abstractmethod

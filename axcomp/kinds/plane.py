@@ -141,7 +141,7 @@ class PlaneKind(Kind[Plane]):
         values = source.values
         columns, rows = (values.integer(name) + 1 for name in _LAST_INDEX)
         reserved = values.integer(_MAX_POINTS) if values.given(_MAX_POINTS) else 0
-        if not values.cells(CORRECTION):
+        if not values.count(CORRECTION):
             source.note("70183", _LAST_INDEX[0], "The plane compensation has no table; it stays off.")
             return None
         if not _fits(source, columns, rows, reserved):

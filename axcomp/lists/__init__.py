@@ -10,13 +10,16 @@ from .etalon import read_etalon, write_etalon
 from .files import Files
 from .findings import CODES, LIMIT, Finding, Findings, ListError
 from .format import Lines
-from .grammar import Entry, decode, entries, number, string
+from .grammar import Entry, continued, decode, entries, number, string
 from .isg_csv import read_isg_csv, write_isg_csv
-from .positions import Position
+from .known import all_similar
+from .positions import DocumentEntry, Position
+from .project import Project, Section, is_project
 from .reader import Reading, TypeName, read_machine, reread_volumetric
+from .recognition import START_UP_NAME, kind_of, parameter_format
 from .reference import HEADINGS, PAGE, as_dict, cells, page
 from .saving import write_whole
-from .start_up import START_UP_NAME, MachineFiles, find_lists
+from .start_up import MachineFiles, find_lists
 from .values import ListValues, read_values
 from .volumetric_blocks import ParameterBlock
 from .volumetric_list import VolumetricReader
@@ -38,6 +41,7 @@ __all__ = [
     "Axes",
     "AxisSettings",
     "Document",
+    "DocumentEntry",
     "Entry",
     "Files",
     "Finding",
@@ -49,15 +53,19 @@ __all__ = [
     "ParameterBlock",
     "Parameters",
     "Position",
+    "Project",
     "Reading",
+    "Section",
     "Severity",
     "TableReader",
     "TypeName",
     "VolumetricReader",
+    "all_similar",
     "as_dict",
     "assemble",
     "blocks_of",
     "cells",
+    "continued",
     "decode",
     "entries",
     "find_lists",
@@ -65,11 +73,14 @@ __all__ = [
     "format_compensation_list",
     "format_start_up_list",
     "format_volumetric_list",
+    "is_project",
+    "kind_of",
     "machine_documents",
     "number",
     "page",
     "parameter",
     "parameter_file",
+    "parameter_format",
     "read_etalon",
     "read_isg_csv",
     "read_machine",

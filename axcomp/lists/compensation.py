@@ -9,8 +9,9 @@ from typing import Any
 from ..kinds import METRIC, Gear, convert
 from .axes import Axes, AxisSettings
 from .catalogue import parameter
+from .column import Indices
 from .findings import Findings
-from .values import Indices, ListValues
+from .values import ListValues
 
 POINTS_MAX = 1_000_000
 """Entries of a table that are taken at most, whatever max_points says."""
@@ -92,6 +93,9 @@ class TableReader:
         An entry that is missing is 0, as in the controller, with a finding; so are entries beyond the used part.
         """
         divisor = parameter(self.values.kind, name).quantity.divisor
+        metric = gear == METRIC
+        if (regular := self.values.filled(name, counts)) is not None:
+            return [v / divisor if metric else convert(v, divisor, gear) for v in regular]
         cells = self.values.cells(name)
         used = list(product(*map(range, counts)))
         found: list[tuple[Any, int]] = [cells.get(indices, _MISSING) for indices in used]
@@ -102,7 +106,6 @@ class TableReader:
             beyond = set(cells).difference(used)
             message = f"{len(beyond):,} entries of {name} lie beyond the used size of the table; they are not used."
             self.note("AXC-UNUSED", name, message, *min(beyond))
-        metric = gear == METRIC
         # An integer in the unit of the list is what nearly every value is: it saves a call.
         return [v / divisor if metric and type(v) is int else convert(v, divisor, gear) for v, _ in found]
 
@@ -124,7 +127,7 @@ class TableReader:
 
     def note_unused(self, name: str, reason: str) -> None:
         """Say that entries which are there are not used."""
-        count = len(self.values.cells(name))
+        count = self.values.count(name)
         if count:
             first = min(self.values.cells(name))
             self.note("AXC-UNUSED", name, f"{count:,} entries of {name} are not used: {reason}.", *first)

@@ -22,7 +22,7 @@ from .saving import write_whole
 from .values import ListValues, read_values
 
 _NEWLINES = re.compile(r"(\r\n|\r|\n)")
-_END = re.compile(r"\s*end\s*\Z", re.I)
+_END = re.compile(r"\s*ende?\s*\Z", re.I)
 
 Name = tuple[str, tuple[int, ...]]
 """``key_of`` a parameter's name, and its indices: what an entry is about, however it is spelt."""
@@ -39,12 +39,15 @@ class Document:
         As read or last saved.
     kind : ListKind or None
         None for a file of volumetric parameters, which has no entries.
+    outer : tuple of Path, int and int, or None
+        Of a list that stands in another file: that file, and how many lines, and characters of a line, are before it.
     """
 
     def __init__(self, path: str | os.PathLike[str], data: bytes = b"", kind: ListKind | None = None) -> None:
         self.path = Path(path)
         self.data = data
         self.kind = kind
+        self.outer: tuple[Path, int, int] | None = None
         # Lines and the line ends behind them, once something is changed.
         self._lines: list[str] | None = None
         self._newlines: list[str] = []
@@ -223,6 +226,21 @@ class Document:
             blank = [""] if end > 0 and lines[end - 1].strip() else []
             added.setdefault(end, [])[:0] = [*blank, f"# {heading}"]
         self._rebuild(gone, added)
+
+    def edit_lines(self, changed: Mapping[int, str | None], added: Mapping[int, Sequence[str]]) -> None:
+        """Give lines another text, take them out (None), and put some before a line; lines are counted from 1."""
+        lines = self._editable()
+        for line, text in changed.items():
+            lines[line - 1] = lines[line - 1] if text is None else text
+        gone = {line - 1 for line, text in changed.items() if text is None}
+        self._rebuild(gone, {line - 1: texts for line, texts in added.items()})
+
+    def replace_text(self, text: str) -> None:
+        r"""Give the list another text, with ``\n`` between lines: all of them get the line end of the first one."""
+        newline = self.newline
+        self._lines = text.split("\n")
+        self._newlines = [newline] * (len(self._lines) - 1)
+        self._forget()
 
     # Saving
 

@@ -8,11 +8,12 @@ Values are in mm and rad, positions in mm and °.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import islice
 
 from ..model import PARAMETERS
 from .findings import Findings
-from .volumetric_blocks import ELISIONS, ParameterBlock, check_values, note_elision, numbers
+from .volumetric_blocks import ELISIONS, ParameterBlock, check_values, note_elision, numbers, regular_rows
 
 _FREE_TEXT = "HEADER"
 _PLAIN = str.maketrans(";", " ", '"')
@@ -21,7 +22,12 @@ _PLAIN = str.maketrans(";", " ", '"')
 def read_etalon(text: str, file: str, findings: Findings) -> list[ParameterBlock]:
     """Return the blocks of a file, one a parameter; ``findings`` grows by what is wrong. Never raises on content."""
     reader = _Reader(file, findings)
-    for line, written in enumerate(text.split("\n"), 1):
+    lines = text.split("\n")
+    numbered = enumerate(lines, 1)
+    for line, written in numbered:
+        if count := reader.take_pairs(lines, line):
+            next(islice(numbered, count - 1, count - 1), None)
+            continue
         content = written.partition("//")[0].translate(_PLAIN).strip()
         if content:
             reader.take(content, line)
@@ -41,6 +47,19 @@ class _Reader:
         self._brace_expected = False
         self._in_braces = False
         self._line = 0
+
+    def take_pairs(self, lines: Sequence[str], line: int) -> int:
+        """Take the lines from one on that are pairs of numbers between braces; return how many these are."""
+        block, arguments = self._block, (self._name[-1:],)
+        if not self._in_braces or (block.rows and block.arguments != arguments):
+            return 0
+        rows = regular_rows(lines, line - 1, 2)
+        if rows:
+            self._line = line + len(rows) - 1
+            self._has_records = True
+            block.arguments = arguments
+            block.take(rows, line)
+        return len(rows)
 
     def take(self, content: str, line: int) -> None:
         """Take a line without comment and outer blanks."""
@@ -131,8 +150,7 @@ class _Reader:
         row = numbers(cells, self._file, self._line, self._name, self._findings)
         if row is not None:
             block.arguments = arguments
-            block.rows.append(row)
-            block.lines.append(self._line)
+            block.take([row], self._line)
 
     def _note(self, code: str, message: str) -> None:
         self._findings.add(code, self._file, self._line, self._name, message)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .document import Document
 from .findings import Findings
+from .project import Project
 
 SIZE_MAX = 200_000_000
 """Bytes of a list that are read at most; the largest legal one has about 1 MB."""
@@ -23,20 +24,16 @@ _Fault = tuple[str, str]
 class _Disk:
     """Files as they lie on the disk."""
 
-    @staticmethod
-    def exists(path: Path) -> bool:
+    def exists(self, path: Path) -> bool:
         return path.exists()
 
-    @staticmethod
-    def is_dir(path: Path) -> bool:
+    def is_dir(self, path: Path) -> bool:
         return path.is_dir()
 
-    @staticmethod
-    def children(folder: Path) -> Iterable[Path]:
+    def children(self, folder: Path) -> Iterable[Path]:
         return folder.iterdir()
 
-    @staticmethod
-    def read(path: Path) -> Document | _Fault:
+    def read(self, path: Path) -> Document | _Fault:
         try:
             if not path.exists():
                 return "AXC-MISSING", "There is no such file."
@@ -48,6 +45,19 @@ class _Disk:
         except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) and error.strerror else error
             return "AXC-UNREADABLE", f"The file cannot be read: {reason}."
+
+
+class _Opened(_Disk):
+    """Documents that are held, as an editor holds them, and beside them what lies on the disk."""
+
+    def __init__(self, documents: Iterable[Document]) -> None:
+        self._documents = {_normal(document.path): document for document in documents}
+
+    def exists(self, path: Path) -> bool:
+        return _normal(path) in self._documents or super().exists(path)
+
+    def read(self, path: Path) -> Document | _Fault:
+        return self._documents.get(_normal(path)) or super().read(path)
 
 
 class _Memory:
@@ -87,6 +97,8 @@ class Files:
         Gets told what cannot be read.
     held : iterable of Document or None
         These are all files there are; None: those on the disk.
+    beside_disk : bool
+        Beside those that are held there are those on the disk.
 
     Attributes
     ----------
@@ -94,9 +106,10 @@ class Files:
         The files read so far, by the path they were named by.
     """
 
-    def __init__(self, findings: Findings, held: Iterable[Document] | None = None) -> None:
+    def __init__(self, findings: Findings, held: Iterable[Document] | None = None, beside_disk: bool = False) -> None:
         self._findings = findings
-        self._source: _Disk | _Memory = _Disk() if held is None else _Memory(held)
+        self._source: _Disk | _Memory
+        self._source = _Disk() if held is None else _Opened(held) if beside_disk else _Memory(held)
         self._faults: dict[Path, _Fault] = {}
         self.documents: dict[Path, Document] = {}
 
@@ -114,6 +127,14 @@ class Files:
         code, sentence = self._faults.get(path, ("AXC-BINARY", "The file is no text; nothing of it is taken."))
         self._findings.add(code, str(path), 0, "", sentence)
         return None
+
+    def project(self, path: Path) -> Project:
+        """Return a file that has been read as a project; its lists are files of their own from now on."""
+        read = self.documents[path]
+        project = read if isinstance(read, Project) else Project(path, read.data)
+        self.documents[path] = project
+        self.documents.update((section.path, section) for section in project.sections)
+        return project
 
     def is_dir(self, path: Path) -> bool:
         """Whether a path is a folder; OSError or ValueError for one that cannot be."""

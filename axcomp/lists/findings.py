@@ -156,6 +156,9 @@ CODES: dict[str, tuple[Severity, str]] = {
     "AXC-DYNAMICS-JUMP": (_WARNING, "Switching or reversing a table asks for more than the axis has"),
     "AXC-LIMIT-EXCEEDED": (_WARNING, "A volumetric correction is larger than s_limit (P-AXIS-00525)"),
     "AXC-LIMIT-NEAR": (_INFO, "A volumetric correction is close to s_limit (P-AXIS-00525)"),
+    # Of the lists as a whole
+    "AXC-BUILD": (_ERROR, "The lists can be read, but no FMU can be made of them"),
+    "AXC-IGNORE": (_WARNING, "A comment asks to ignore findings, but names no code"),
 }
 """Every code a finding can have: its severity and what it means. Numbers are the vendor's, ``AXC-…`` are our own."""
 

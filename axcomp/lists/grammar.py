@@ -10,8 +10,10 @@ import codecs
 import re
 from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import NamedTuple
+
+from .stretches import Finder, Stretch
 
 QUOTES = '"“”″\x93\x94'
 """Characters that open and close a string; the last two are what Windows' own “ and ” become in Latin-1."""
@@ -97,37 +99,51 @@ class Encoding(NamedTuple):
 
 def encoding_of(data: bytes) -> Encoding:
     """Return the encoding of a file: UTF-16 where a mark says so, UTF-8 where it is, else Latin-1."""
-    for name, mark in (("utf-16-le", codecs.BOM_UTF16_LE), ("utf-16-be", codecs.BOM_UTF16_BE)):
-        if data.startswith(mark):
-            return Encoding(name, True)
+    return _decoded(data)[0]
+
+
+def _decoded(data: bytes) -> tuple[Encoding, str | None]:
+    """Return the encoding of a file, and its text without mark; None if it is not what its mark says."""
     try:
-        data.decode("utf-8")
+        for name, mark in (("utf-16-le", codecs.BOM_UTF16_LE), ("utf-16-be", codecs.BOM_UTF16_BE)):
+            if data.startswith(mark):
+                return Encoding(name, True), data[len(mark) :].decode(name)
     except UnicodeDecodeError:
-        return Encoding("latin-1", False)
-    return Encoding("utf-8", data.startswith(codecs.BOM_UTF8))
+        return Encoding(name, True), None
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return Encoding("latin-1", False), data.decode("latin-1")
+    mark_is_there = data.startswith(codecs.BOM_UTF8)
+    return Encoding("utf-8", mark_is_there), text[mark_is_there:]
 
 
 def decode(data: bytes) -> str | None:
     r"""Return the text of a file (see ``encoding_of``) with ``\n`` between lines; None if it is no text."""
-    encoding = encoding_of(data)
-    try:
-        text = data.decode(encoding.name)[encoding.mark :]
-    except UnicodeDecodeError:
+    encoding, text = _decoded(data)
+    if text is None:
         return None
     plain = text.encode() if encoding.name.startswith("utf-16") else data
     controls = len(plain) - len(plain.translate(None, _CONTROLS))
     if b"\0" in plain or controls > len(plain) // 20:
         return None
-    return text.replace("\r\n", "\n").replace("\r", "\n").replace("\x1a", "")
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return text.replace("\x1a", "")
 
 
-def entries(text: str, report: Report) -> Iterator[Entry]:
-    """Yield the entries of a list up to its ``End``; ``report`` gets the lines that are none."""
+def entries(text: str, report: Report, take: Callable[[Stretch], bool] | None = None) -> Iterator[Entry]:
+    """Yield the entries of a list up to its ``End``; ``report`` gets the lines that are none.
+
+    ``take`` gets regular stretches; the entries of those that it takes are not yielded.
+    """
     match = _ENTRY.match
     lines = text.split("\n")
     if "/*" in text and _UNCLOSED.search(text):
         _blank_comments(lines, report)
-    for number, line in enumerate(lines, 1):
+    taken = None if take is None else Finder(lines, take).taken
+    numbered = enumerate(lines, 1)
+    for number, line in numbered:
         found = match(line)
         if found is None:
             if odd := _odd(line, number, report):
@@ -135,10 +151,12 @@ def entries(text: str, report: Report) -> Iterator[Entry]:
             continue
         name, first, second, tail, integer, rest = found.groups("")
         if not first:
-            if not integer and not rest and name.lower() == "end":
+            if not integer and not rest and name.lower() in ("end", "ende"):
                 _report_after_end(lines, number, report)
                 return
             yield Entry(name, (), integer, rest, number)
+        elif taken is not None and integer and (count := taken(number - 1, name, second or first)):
+            next(islice(numbered, count - 1, count - 1), None)
         elif not second:
             yield Entry(f"{name}[]{tail}", (int(first),), integer, rest, number)
         else:

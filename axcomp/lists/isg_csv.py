@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from itertools import islice
 
 from ..model import LETTERS
 from .findings import Findings
-from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers
+from .volumetric_blocks import ELISIONS, ParameterBlock, check_name, check_values, note_elision, numbers, regular_rows
 
 _SEPARATORS, _COMMAS = str.maketrans(";", " "), str.maketrans(",;", "  ")
 _CELL = re.compile(r'"([^"]*)"|([^\s;"]+)')
@@ -24,7 +25,13 @@ def read_isg_csv(text: str, file: str, findings: Findings) -> list[ParameterBloc
     """Return the blocks of a file that have records; ``findings`` grows by what is wrong. Never raises on content."""
     headers: list[_Columns] = []
     columns: _Columns | None = None
-    for line, written in enumerate(text.split("\n"), 1):
+    lines = text.split("\n")
+    numbered = enumerate(lines, 1)
+    for line, written in numbered:
+        if columns is not None and (rows := regular_rows(lines, line - 1, columns.width)):
+            columns.take_all(rows, line)
+            next(islice(numbered, len(rows) - 1, len(rows) - 1), None)
+            continue
         content = written.partition("//")[0]
         cells = _split(content, at_commas=True) if columns is None else columns.split(content)
         if not cells:
@@ -59,7 +66,7 @@ class _Columns:
     """A header: which column of its records goes where."""
 
     def __init__(self, content: str, labels: list[str], file: str, line: int, findings: Findings) -> None:
-        self._width = len(labels)
+        self.width = len(labels)
         self._decimal_commas = ";" in content or "\t" in content
         self._at_commas = "," in content and not self._decimal_commas
         arguments: dict[str, int] = {}
@@ -73,7 +80,7 @@ class _Columns:
             elif check_name(label, file, line, findings):
                 names[label] = place
         self._places = [*arguments.values(), *names.values()]
-        self._as_written = self._places == list(range(self._width))
+        self._as_written = self._places == list(range(self.width))
         self.block = ParameterBlock(file, line, tuple(arguments), tuple(names))
         self.has_records = False
 
@@ -84,21 +91,25 @@ class _Columns:
         cells = _split(content, at_commas=False)
         if "," not in content or self._decimal_commas:
             return cells
-        complete = len(cells) == self._width and not any(cell.startswith(",") or cell.endswith(",") for cell in cells)
+        complete = len(cells) == self.width and not any(cell.startswith(",") or cell.endswith(",") for cell in cells)
         return cells if complete else _split(content, at_commas=True)
 
     def take(self, cells: list[str], line: int, findings: Findings) -> None:
         """Add a record, or note what is wrong with it."""
         block = self.block
         self.has_records = True
-        if len(cells) != self._width:
-            message = f"The record has {len(cells)} columns, its header {self._width}; the compensation stays off."
+        if len(cells) != self.width:
+            message = f"The record has {len(cells)} columns, its header {self.width}; the compensation stays off."
             findings.add("AXC-RECORD", block.file, line, "", message)
             return
         row = numbers(cells, block.file, line, "", findings)
         if row is not None:
-            block.rows.append(row if self._as_written else [row[place] for place in self._places])
-            block.lines.append(line)
+            self.take_all([row], line)
+
+    def take_all(self, rows: list[list[float]], line: int) -> None:
+        """Add records that stand in lines from ``line`` on."""
+        self.has_records = True
+        self.block.take(rows if self._as_written else [[row[place] for place in self._places] for row in rows], line)
 
 
 def write_isg_csv(blocks: Iterable[ParameterBlock]) -> str:

@@ -43,6 +43,12 @@ _SHORT = 8
 """Letters of a name up to which one slip is likely; in longer ones two are."""
 
 
+def is_structure(kind: ListKind, key: str) -> bool:
+    """Tell whether an entry belongs to a structure that such lists have and channels have not, be it used or not."""
+    head = _head(key)
+    return head in _STRUCTURES[kind] and head not in _CHANNEL_HEADS.split()
+
+
 def is_known(kind: ListKind, key: str) -> bool:
     """Tell whether an entry is one of the controller's that nothing here uses.
 
@@ -56,11 +62,16 @@ def is_known(kind: ListKind, key: str) -> bool:
     return key in _SINGLE[kind] or (_head(key) in _STRUCTURES[kind] and not similar(kind, key))
 
 
-@lru_cache(maxsize=4096)
 def similar(kind: ListKind, key: str) -> str:
     """Return the name of the parameter that an unknown one resembles, "" if none does."""
+    return next(iter(all_similar(kind, key)), "")
+
+
+@lru_cache(maxsize=4096)
+def all_similar(kind: ListKind, key: str) -> tuple[str, ...]:
+    """Return the names of all parameters that an unknown one resembles."""
     if len(key) > 80:
-        return ""
+        return ()
     used = SPELLINGS[kind]
     head = _head(key)
     if head in _STRUCTURES[kind]:
@@ -68,8 +79,8 @@ def similar(kind: ListKind, key: str) -> str:
         slips = 1 if len(tail) - 1 <= _SHORT else 2
         near = [other for other in used if _head(other) == head and _distance(tail, other[len(head) :]) <= slips]
     else:
-        near = difflib.get_close_matches(key, used, 1, 0.85)
-    return used[near[0]].parameter.name if near else ""
+        near = difflib.get_close_matches(key, used, 3, 0.85)
+    return tuple(dict.fromkeys(used[other].parameter.name for other in near))
 
 
 def _head(key: str) -> str:

@@ -130,6 +130,22 @@ def located(findings: Iterable[Finding], documents: Mapping[Path, Document]) -> 
     return tuple(found)
 
 
+def outside(findings: Iterable[Finding], documents: Mapping[Path, Document]) -> tuple[Finding, ...]:
+    """Return findings about lists that stand in another file with the file, line and column they have there."""
+    outer = {str(path): document.outer for path, document in documents.items()}
+    found = []
+    for finding in findings:
+        where = outer.get(finding.file)
+        if where is None:
+            found.append(finding)
+            continue
+        file, line, column = where
+        first = column if finding.line == 1 and finding.column else 0
+        place = finding.column + first
+        found.append(replace(finding, file=str(file), line=max(finding.line, 1) + line, column=place))
+    return tuple(found)
+
+
 def _column(line: str, name: str, document: Document) -> int:
     """Return where an entry begins in a line, 0 if another one or none stands there."""
     entry = next(entries(line, lambda *_: None), None)

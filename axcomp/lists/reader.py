@@ -15,10 +15,10 @@ from .compensation import TableReader
 from .document import Document
 from .files import Files
 from .findings import Finding, Findings, ListError
-from .positions import located
+from .positions import located, outside
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues
-from .volumetric_list import read_one, read_volumetric
+from .volumetric_list import check_parameters, read_one, read_volumetric
 
 TypeName = Literal["translatory", "rotary", "modulo"]
 """What an axis without axis list can be taken for; ``modulo``: rotary, counting from 0° to 360°."""
@@ -48,6 +48,8 @@ class Reading:
         What the lists say about the axes besides their tables.
     axis_type : str or None
         What was said of axes without axis lists.
+    inner_findings : tuple of Finding
+        The same findings; lists that stand in another file are named themselves, and their own lines counted.
 
     Examples
     --------
@@ -66,15 +68,21 @@ class Reading:
     _axis_lists: Mapping[int, Document] = field(repr=False)
     _compensation_lists: Mapping[int, Document] = field(repr=False)
     axis_type: TypeName | None = None
+    inner_findings: tuple[Finding, ...] = field(default=(), repr=False)
+
+    @property
+    def name(self) -> str:
+        """What the machine is called: by its folder, or by the list that is all there is of it."""
+        path = self.path.resolve()
+        if self.start_up is not None and path.is_file():
+            return path.parent.name
+        return path.stem if path.is_file() else path.name
 
     def _repr_html_(self) -> str:
         """Return machine and findings as tables, for notebooks."""
-        rows = [
-            [f"{one.file}:{one.line}", one.severity.value, one.code, one.parameter, one.message]
-            for one in self.findings
-        ]
-        findings = as_html(["place", "severity", "code", "parameter", "finding"], rows, "text") if rows else ""
-        return f"{self.machine._repr_html_()}{findings or '<p>No findings.</p>'}"
+        rows = [[f"{one.file}:{one.line}", one.severity.value, one.code, one.message] for one in self.findings]
+        table = as_html(["place", "severity", "code", "finding"], rows, "text") if rows else "<p>No findings.</p>"
+        return self.machine._repr_html_() + table
 
     def to_frame(self) -> Any:
         """Return the findings as a pandas data frame, a row each."""
@@ -95,7 +103,7 @@ class Reading:
 
     def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
         """Return ``findings`` about these lists with the columns of the entries they are about."""
-        return located(findings, self.documents)
+        return outside(located(findings, self.documents), self.documents)
 
 
 _NUMBER = "kopf.achs_nr"
@@ -106,6 +114,7 @@ def read_machine(
     *,
     strict: bool = False,
     documents: Iterable[Document] | None = None,
+    beside_disk: bool = False,
     axis_type: TypeName | None = None,
 ) -> Reading:
     """Read the lists of a machine.
@@ -115,12 +124,14 @@ def read_machine(
     Parameters
     ----------
     path : path
-        A start-up list, a folder with one, a folder of compensation lists, or a single compensation list. Without
+        A start-up list, a folder with one, a folder of compensation lists, or a single list of any kind. Without
         any axis list every compensation with a plausible table acts.
     strict : bool
         Raise if there is a finding of severity error.
     documents : iterable of Document, optional
         These are all files there are; the disk is not looked at.
+    beside_disk : bool
+        The disk is looked at for what ``documents`` lack: so an editor sees lists that are not saved.
     axis_type : str, optional
         ``rotary`` or ``modulo``: without any axis list, of the axes that have compensation lists. All others, and all
         without it, are translatory.
@@ -138,7 +149,7 @@ def read_machine(
     (['X', 'Y'], 0)
     """
     findings = Findings()
-    reader = _MachineReader(findings, Files(findings, documents), axis_type)
+    reader = _MachineReader(findings, Files(findings, documents, beside_disk), axis_type)
     reading = reader.read(Path(path))
     errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
@@ -173,7 +184,7 @@ def reread_volumetric(
         return None, ()
     read = Files(findings)
     volumetric = read_one(index, start.lists, read, start.axes, findings, files)
-    return volumetric, located(findings.all(), read.documents)
+    return volumetric, outside(located(findings.all(), read.documents), read.documents)
 
 
 class _Start(NamedTuple):
@@ -227,9 +238,10 @@ class _MachineReader:
         lists, axes, tables = start
         machine = self._machine(lists, axes, tables)
         documents = self.files.documents
+        inner = located(self.findings.all(), documents)
         return Reading(
             machine,
-            located(self.findings.all(), documents),
+            outside(inner, documents),
             path,
             documents,
             next((one for one in documents.values() if one.kind is ListKind.START_UP), None),
@@ -237,12 +249,18 @@ class _MachineReader:
             self._axis_lists,
             self._compensation_lists,
             self.axis_type,
+            inner,
         )
 
     def _machine(self, lists: MachineFiles, axes: Axes, tables: dict[int, ListValues]) -> Machine:
         # Reading a table may add the axes it refers to.
-        acting = {axis.number: self._compensations(axis, tables.get(axis.number), axes) for axis in axes.all()}
+        acting = {
+            axis.number: self._compensations(axis, tables.get(axis.number), axes, lists.has_tables)
+            for axis in axes.all()
+        }
         volumetric = read_volumetric(lists, self.files, axes, self.findings)
+        if lists.parameters is not None:
+            check_parameters(lists.parameters, self.files, self.findings)
         names = axes.names()
         return Machine(
             tuple(
@@ -286,7 +304,7 @@ class _MachineReader:
             if values is None:
                 continue
             # The list for all axes cannot number them.
-            number = values.integer(_NUMBER) if values.given(_NUMBER) else 0
+            number = values.integer(_NUMBER) if values.given(_NUMBER) else named.log_ax_nr
             if not number:
                 self._note("AXC-NUMBER", values, "The list does not say which axis it is for; it is not used.")
             elif number in axes:
@@ -348,7 +366,7 @@ class _MachineReader:
         message = f"Axis {number} has a list of this kind already; this one is not used."
         self._note("AXC-NUMBER-TWICE", values, message)
 
-    def _compensations(self, axis: AxisSettings, table: ListValues | None, axes: Axes) -> _Acting:
+    def _compensations(self, axis: AxisSettings, table: ListValues | None, axes: Axes, has_tables: bool) -> _Acting:
         """Return what acts on an axis, and what is activated without a table."""
         found = _Acting({}, {})
         for name, kind in KINDS.items():
@@ -360,7 +378,7 @@ class _MachineReader:
                 compensation = kind.read(source)
                 if not active and compensation is not None:
                     self._note_inactive(kind, source)
-            elif active and axis.values is not None:
+            elif active and axis.values is not None and has_tables:
                 code, entry = kind.no_table_code, kind.activator.name
                 message = f"{entry} is 1, but axis {axis.number} has no {name} table; nothing is compensated."
                 self.findings.add(code, *axis.values.place(entry), entry, message)

@@ -11,9 +11,9 @@ from ..kinds import ListKind
 from .document import Document
 from .files import Files
 from .findings import Findings
+from .project import Project, looks_like_project
+from .recognition import START_UP_NAME, kind_of, parameter_format
 from .values import ListValues
-
-START_UP_NAME = "hochlauf.lis"
 
 _LISTS_MAX = 32
 
@@ -48,6 +48,12 @@ class MachineFiles:
         The axis list that is read first, for all axes (P-STUP-00035).
     start_up : ListValues or None
         The start-up list itself, where there is one.
+    volumetric : list of Path
+        Volumetric lists that no start-up list names.
+    parameters : Path or None
+        A file of volumetric parameters that is looked at on its own.
+    has_tables : bool
+        False for an axis list on its own: nothing can be said about tables.
     folder : Path
         What file names are relative to.
     """
@@ -57,6 +63,9 @@ class MachineFiles:
     axis: list[NamedList] = field(default_factory=list)
     axis_default: Path | None = None
     start_up: ListValues | None = None
+    volumetric: list[Path] = field(default_factory=list)
+    parameters: Path | None = None
+    has_tables: bool = True
 
     @property
     def has_axis_lists(self) -> bool:
@@ -65,7 +74,7 @@ class MachineFiles:
 
 
 def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
-    """Return the lists of a machine: ``path`` is a start-up list, a folder, or a single compensation list."""
+    """Return the lists of a machine: ``path`` is a start-up list, a folder, or a single list of any kind."""
     if files.is_dir(path):
         found = _in_folder(path, START_UP_NAME, files)
         if not found:
@@ -74,8 +83,17 @@ def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
     document = files.document(path)
     if document is None:
         return MachineFiles(path.parent)
-    if _is_start_up(document):
+    if looks_like_project(document):
+        return _lists_of_project(files.project(path), files, findings)
+    kind = kind_of(path.name, document.text)
+    if kind is ListKind.START_UP:
         return _lists_of_start_up(document, files, findings)
+    if parameter_format(document.text):
+        return MachineFiles(path.parent, parameters=path)
+    if kind is ListKind.AXIS:
+        return MachineFiles(path.parent, axis=[NamedList(path)], has_tables=False)
+    if kind is ListKind.VOLUMETRIC:
+        return MachineFiles(path.parent, volumetric=[path])
     return MachineFiles(path.parent, [NamedList(path)])
 
 
@@ -104,11 +122,19 @@ def _lists_of_folder(folder: Path, files: Files, findings: Findings) -> MachineF
     return lists
 
 
-_START_UP_ENTRY = re.compile(r"^\s*(?:zahl_kw|zahl_mds|achs_kw|achs_mds|default_achs_mds|vol_comp\s*\[)", re.I | re.M)
-
-
-def _is_start_up(document: Document) -> bool:
-    return document.path.name.lower() == START_UP_NAME or _START_UP_ENTRY.search(document.text) is not None
+def _lists_of_project(project: Project, files: Files, findings: Findings) -> MachineFiles:
+    """Take all lists of a project file; file names in them are relative to it."""
+    path = project.path
+    if project.fault:
+        findings.add("AXC-UNREADABLE", str(path), project.fault_line, "", f"The file is no XML: {project.fault}.")
+    elif not project.sections:
+        findings.add("AXC-EMPTY", str(path), 0, "", "The project file holds no list of an axis.")
+    starts = project.of_kind(ListKind.START_UP)
+    lists = _lists_of_start_up(starts[0], files, findings) if starts else MachineFiles(path.parent)
+    for kind, taken in ((ListKind.COMPENSATION, lists.compensation), (ListKind.AXIS, lists.axis)):
+        taken.extend(NamedList(one.path, one.axis_number, (str(one.path), 0, "")) for one in project.of_kind(kind))
+    lists.volumetric = [one.path for one in project.of_kind(ListKind.VOLUMETRIC)]
+    return lists
 
 
 def _lists_of_start_up(document: Document, files: Files, findings: Findings) -> MachineFiles:

@@ -2,34 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from decimal import Decimal
 
 from ..kinds import METRIC, DataType, Gear, ListKind, Parameter, Severity, Value, convert, key_of
 from .catalogue import SPELLINGS, ZEROED, parameter
+from .column import Column, Indices, Run
 from .findings import CODES, Findings
 from .grammar import Entry, entries, flags, number, string
 from .known import is_known, similar
+from .stretches import Stretch
 
 _SUGGESTIONS_MAX = 500
-
-Indices = tuple[int, ...]
-
-
-class _Column:
-    """All values of one parameter in one list, by their indices."""
-
-    __slots__ = ("cells", "high", "index_max", "low", "parameter", "quick", "spellings")
-
-    def __init__(self, parameter: Parameter) -> None:
-        self.parameter = parameter
-        self.cells: dict[Indices, tuple[Value, int]] = {}
-        self.spellings: set[str] = set()
-        plausible = parameter.plausible
-        self.low = plausible.low + plausible.low_open
-        self.high = plausible.high - plausible.high_open
-        self.index_max = parameter.index_max
-        special = parameter.values or parameter.names or parameter.index_max
-        self.quick = parameter.type is not DataType.STRING and not special
 
 
 class ListValues:
@@ -51,7 +35,7 @@ class ListValues:
         self.file = file
         self.kind = kind
         self._fallback = fallback
-        self._columns: dict[str, _Column] = {}
+        self._columns: dict[str, Column] = {}
         self.foreign: dict[ListKind, int] = {}
         self.others = 0
 
@@ -65,14 +49,23 @@ class ListValues:
         """Whether the list has an entry at all."""
         return bool(self._columns)
 
-    def column(self, parameter: Parameter) -> _Column:
+    def column(self, parameter: Parameter) -> Column:
         """Return the values of a parameter, to be filled."""
-        return self._columns.setdefault(parameter.key, _Column(parameter))
+        return self._columns.setdefault(parameter.key, Column(parameter))
 
     def cells(self, name: str) -> dict[Indices, tuple[Value, int]]:
         """Return indices → (value, line) of all that is given for a parameter."""
         column = self._columns.get(key_of(name))
         return {} if column is None else column.cells
+
+    def count(self, name: str) -> int:
+        """Return how many entries are given for a parameter."""
+        return len(self._columns.get(key_of(name), ()))
+
+    def filled(self, name: str, counts: Sequence[int]) -> list[int] | None:
+        """Return the values of a table if they stand in regular stretches and are all there, none beyond ``counts``."""
+        column = self._columns.get(key_of(name))
+        return None if column is None else column.filled(counts)
 
     def given(self, name: str, *indices: int) -> bool:
         """Whether an entry is there."""
@@ -128,8 +121,15 @@ def read_values(
     """Return the plausible values of a list; what is not plausible is noted and replaced by its default."""
     values = ListValues(file, kind, fallback)
     reader = _ValueReader(values, findings)
-    columns: dict[str, _Column | None] = {}
-    for entry in entries(text, reader.report):
+    columns: dict[str, Column | None] = {}
+
+    def take(stretch: Stretch) -> bool:
+        for place, key in enumerate(stretch.keys):
+            if key not in columns:
+                columns[key] = reader.column(Entry(key, (), "", "", stretch.line + place))
+        return _take_stretch(stretch, [columns[key] for key in stretch.keys])
+
+    for entry in entries(text, reader.report, take):
         key, indices, integer, _, line = entry
         try:
             column = columns[key]
@@ -140,14 +140,30 @@ def read_values(
         elif integer and column.quick:
             # Nearly every line of a long table goes this way: an integer, checked and kept.
             value = int(integer)
-            if indices not in column.cells and column.low <= value <= column.high:
-                column.cells[indices] = (value, line)
+            cells = column.cells
+            if indices not in cells and column.low <= value <= column.high:
+                cells[indices] = (value, line)
             else:
                 reader.take(column, entry)
         else:
             reader.take(column, entry)
     reader.finish()
     return values
+
+
+def _take_stretch(stretch: Stretch, columns: Sequence[Column | None]) -> bool:
+    """Put a stretch into its columns; False: something about it is to be noted."""
+    if len({id(column) for column in columns}) < len(columns):
+        return False
+    pairs = list(zip(columns, stretch.columns, strict=True))
+    if not all(
+        column is not None and column.has_room(stretch.fixed, stretch.first, values) for column, values in pairs
+    ):
+        return False
+    for place, (column, values) in enumerate(pairs):
+        assert column is not None
+        column.add(stretch.fixed, Run(stretch.first, values, stretch.line + place, len(pairs)))
+    return True
 
 
 class _ValueReader:
@@ -167,7 +183,7 @@ class _ValueReader:
         }.get(code, f"“{shown}” is neither an entry nor a comment; it is not taken.")
         self._findings.add(code, self._values.file, line, "", sentence)
 
-    def column(self, entry: Entry) -> _Column | None:
+    def column(self, entry: Entry) -> Column | None:
         """Return where an entry's values go, None if the list has no such parameter."""
         key = entry.key.lower()
         spelling = SPELLINGS[self._values.kind].get(key)
@@ -206,7 +222,7 @@ class _ValueReader:
             message = f"{count:,} {entries_are} known, but without effect on compensations; not used."
             self._findings.add("AXC-OTHERS", self._values.file, 0, "", message)
 
-    def take(self, column: _Column, entry: Entry) -> None:
+    def take(self, column: Column, entry: Entry) -> None:
         """Check an entry and keep its value, or the default instead."""
         for index, limit in zip(entry.indices, column.index_max, strict=False):
             if index > limit:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..model import ERRORS, LENGTH_MAX, LETTERS, PARAMETERS, is_angle, largest
@@ -35,6 +36,29 @@ class ParameterBlock:
     names: tuple[str, ...]
     rows: list[list[float]] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
+
+    def take(self, rows: Sequence[list[float]], line: int) -> None:
+        """Add records that stand in lines from ``line`` on."""
+        self.rows += rows
+        self.lines += range(line, line + len(rows))
+
+
+def regular_rows(lines: Sequence[str], at: int, width: int) -> list[list[float]]:
+    """Return the records of the lines from ``at`` on that hold ``width`` plain numbers and nothing else.
+
+    What is in any way special ends them: ``numbers`` and its callers know what to make of it.
+    """
+    rows: list[list[float]] = []
+    for i in range(at, len(lines)):
+        try:
+            row = list(map(float, lines[i].split()))
+        except ValueError:
+            break
+        # Python takes digits grouped by _, and names of infinity, for numbers.
+        if len(row) != width or "_" in lines[i] or not all(map(math.isfinite, row)):
+            break
+        rows.append(row)
+    return rows
 
 
 def check_name(name: str, file: str, line: int, findings: Findings) -> bool:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from types import MappingProxyType
 
 from ..kinds import ListKind
@@ -35,11 +36,12 @@ from ..model import (
     shown,
 )
 from .axes import Axes, AxisSettings
-from .catalogue_volumetric import ETALON_EXCHANGE
+from .catalogue_volumetric import AUTO, ETALON_EXCHANGE
 from .etalon import read_etalon
 from .files import Files
 from .findings import Findings
 from .isg_csv import read_isg_csv
+from .recognition import parameter_format
 from .start_up import MachineFiles
 from .values import ListValues
 from .volumetric_blocks import ParameterBlock
@@ -71,12 +73,7 @@ def read_one(
 
     ``named``: parameter files to be read instead of those the list names, by their index.
     """
-    start_up = lists.start_up
-    name = "" if start_up is None else start_up.text(_FILE_NAME, index)
-    if start_up is None or not name:
-        return None
-    parameter = _FILE_NAME.replace("[i]", f"[{index}]")
-    path = files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
+    path = _list_of(index, lists, files)
     document = None if path is None else files.document(path)
     if document is None:
         return None
@@ -88,6 +85,24 @@ def read_one(
         return None
     reader.check_limits(dict(volumetric.axes))
     return volumetric
+
+
+def _list_of(index: int, lists: MachineFiles, files: Files) -> Path | None:
+    """Return the list of a compensation: the one the start-up list names, or the only list there is."""
+    start_up = lists.start_up
+    name = "" if start_up is None else start_up.text(_FILE_NAME, index)
+    if start_up is None or not name:
+        return lists.volumetric[index] if index < len(lists.volumetric) else None
+    parameter = _FILE_NAME.replace("[i]", f"[{index}]")
+    return files.named(lists.folder, name, (*start_up.place(_FILE_NAME, index), parameter))
+
+
+def check_parameters(path: Path, files: Files, findings: Findings) -> None:
+    """Read a file of volumetric parameters that no list names: what can be said of it alone."""
+    document = files.document(path)
+    if document is not None:
+        read = read_etalon if parameter_format(document.text) == ETALON_EXCHANGE else read_isg_csv
+        assemble(read(document.text, str(path), findings), AUTO, False, findings)
 
 
 class VolumetricReader:

@@ -9,8 +9,8 @@ from ..kinds import KINDS, ListKind, kind_of
 from ..model import AXES_MAX, Axis, Compensation, Machine
 from .document import Document
 from .format import Lines
+from .recognition import START_UP_NAME
 from .saving import write_whole
-from .start_up import START_UP_NAME
 from .volumetric_writer import check_records, format_parameters, format_volumetric_list, list_file, parameter_file
 
 _MODULO_MODE = 0x4

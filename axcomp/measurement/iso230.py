@@ -24,6 +24,7 @@ import numpy.typing as npt
 
 from ..engine import Array
 from ..model import Tabular, Tabulated, symbol
+from .outliers import Outlier
 from .positioning import Positioning
 from .uncertainty import Conditions
 
@@ -82,6 +83,10 @@ class Iso230Result(Tabular, Mapping[str, float]):
         Expanded uncertainty (k = 2) of the figures by ``uncertainty.Conditions``, by name; empty without conditions.
     readings : Positioning
         What was evaluated.
+    outliers : tuple of Outlier
+        Readings that stand apart from those of the same target and direction; the standard lets them count.
+    robust : Iso230Result or None
+        What the standard would say without them; None: there are none.
     notes : tuple of str
         What is missing, and why.
 
@@ -126,6 +131,8 @@ class Iso230Result(Tabular, Mapping[str, float]):
     B: float
     B_mean: float
     readings: Positioning = field(repr=False)
+    outliers: tuple[Outlier, ...] = ()
+    robust: Iso230Result | None = field(default=None, repr=False)
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
@@ -178,6 +185,10 @@ class Iso230Result(Tabular, Mapping[str, float]):
                 }
                 for i, position in enumerate(self.positions)
             ],
+            "outliers": [{"run": one.run, "at": one.at, "size": one.size, "limit": one.limit} for one in self.outliers],
+            "parameters_without_outliers": None
+            if self.robust is None
+            else {name: _plain(value) for name, value in self.robust.parameters().items()},
             "notes": list(self.notes),
         }
 
@@ -220,6 +231,16 @@ class Iso230Result(Tabular, Mapping[str, float]):
             f"{SYMBOLS[name]} = {value:.2f}" for name, value in self.parameters().items() if not math.isnan(value)
         )
         return f"Iso230Result({self.axis or 'axis'}, {len(self.positions)} targets, {figures} {self.unit})"
+
+
+def evaluate_robustly(measurement: Positioning, conditions: Conditions | None = None) -> Iso230Result:
+    """Evaluate as ``evaluate`` does, with outliers named and the figures without them beside."""
+    result, outliers = evaluate(measurement, conditions), measurement.outliers()
+    if not outliers:
+        return result
+    robust = evaluate(measurement.without(outliers), conditions)
+    notes = tuple(f"Outlier: {one}." for one in outliers)
+    return replace(result, outliers=outliers, robust=robust, notes=(*notes, *result.notes))
 
 
 def evaluate(measurement: Positioning, conditions: Conditions | None = None) -> Iso230Result:

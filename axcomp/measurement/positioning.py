@@ -5,7 +5,7 @@ Deviations are *actual − target* in the unit that small values are shown in: �
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -13,19 +13,34 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
-from ..model import shown
-from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, read_columns
+from ..model import shown, symbol
+from .columns import ANGLES, LENGTHS, Column, Columns, MeasurementError, of_axis, read_all_columns
+from .outliers import Outlier, find_outliers
 from .readings import Readings, whole_runs
 from .renishaw import is_rtl, read_rtl
+
+_SPAN, _FOLLOWS = 1.0, 0.02
+"""Deviations that are the targets but for this share of their span are positions; of smaller spans it is not told."""
 
 TARGET_DIGITS = 6
 """Targets that agree to so many decimals of 1 mm or 1° are one."""
 
 COLUMNS = (
-    Column("target", LENGTHS | ANGLES, "mm", aliases=("position", "setpoint")),
-    Column("run", aliases=("cycle",)),
-    Column("direction", direction=True),
-    Column("deviation", LENGTHS | ANGLES, "um", aliases=("error",)),
+    Column(
+        "target", LENGTHS | ANGLES, "mm", aliases=("position", "setpoint", "nominal", "soll", "sollposition", "ziel")
+    ),
+    Column("run", aliases=("cycle", "lauf", "zyklus")),
+    Column("direction", direction=True, aliases=("richtung",)),
+    Column("deviation", LENGTHS | ANGLES, "um", aliases=("error", "abweichung"), spread=True),
+    Column(
+        "actual",
+        LENGTHS | ANGLES,
+        "mm",
+        optional=True,
+        aliases=("measured", "ist", "istposition"),
+        instead_of="deviation",
+        spread=True,
+    ),
 )
 
 
@@ -68,16 +83,46 @@ class Positioning(Readings):
         deviations[(self.directions < 0).astype(int), target, run] = self.deviations
         return targets, runs, deviations
 
+    def outliers(self) -> tuple[Outlier, ...]:
+        """Return the readings that stand apart from those of the same target and direction."""
+        targets, target = np.unique(np.round(self.targets, TARGET_DIGITS), return_inverse=True)
+        down = self.directions < 0
+
+        def named(i: int) -> str:
+            return f"target {self.targets[i]:g} {symbol(self.unit)} {'↓' if down[i] else '↑'}"
+
+        runs, over = 2 * self.runs + down, np.column_stack([down, self.targets])
+        found = find_outliers(
+            target + len(targets) * down, runs, self.deviations, named, self.deviation_unit, over=over
+        )
+        return tuple(replace(one, run=int(self.runs[one.place])) for one in found)
+
+    def without(self, outliers: Sequence[Outlier]) -> Positioning:
+        """Return the measurement without some readings."""
+        return self.only(~np.isin(np.arange(len(self.runs)), [one.place for one in outliers]))
+
     def with_deviations(self, deviations: Array) -> Positioning:
         """Return the measurement with other deviations, (n,)."""
         return replace(self, deviations=deviations)
 
 
-def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Positioning:
-    """Read a measurement: Renishaw ``.rtl``, else a table with ``target, run, direction, deviation``.
+def read_positioning(path: str | Path, axis: str = "", *, of_another_axis: bool = False) -> Positioning:
+    """Read a measurement: see ``read_positionings``; ``axis``: the one that is meant where there are several.
 
-    ``of_another_axis``: not the axis at the targets deviates but one that follows it; targets may then be angles and
-    deviations lengths.
+    Raises
+    ------
+    MeasurementError
+        The file cannot be read, or a line of it; it names file and line.
+    """
+    return of_axis(read_positionings(path, of_another_axis=of_another_axis), axis, str(path))
+
+
+def read_positionings(path: str | Path, *, of_another_axis: bool = False) -> tuple[Positioning, ...]:
+    """Read all measurements in a file, one for each axis.
+
+    Renishaw ``.rtl``, else tables with ``target, run, direction`` and ``deviation`` or ``actual``, or with one column a
+    run. ``of_another_axis``: not the axis at the targets deviates but one that follows it; targets may then be angles
+    and deviations lengths.
 
     Raises
     ------
@@ -87,8 +132,8 @@ def read_positioning(path: str | Path, *, of_another_axis: bool = False) -> Posi
     path = Path(path)
     if is_rtl(path):
         readings, details = read_rtl(path)
-        return Positioning(*readings, axis=details.get("axis", ""), source=str(path), details=details)
-    return _from_columns(read_columns(path, COLUMNS), of_another_axis)
+        return (Positioning(*readings, axis=details.get("axis", ""), source=str(path), details=details),)
+    return tuple(_from_columns(columns, of_another_axis) for columns in read_all_columns(path, COLUMNS))
 
 
 def unit_of(rotary: bool) -> str:
@@ -107,7 +152,8 @@ def angular(columns: Columns, *names: str) -> bool:
 
 def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
     runs = whole_runs(columns)
-    rotary = angular(columns, "target", *(() if of_another_axis else ("deviation",)))
+    given = "actual" if "actual" in columns.values else "deviation"
+    rotary = angular(columns, "target", *(() if of_another_axis else (given,)))
     targets = columns.positions("target")
     directions = columns.values["direction"].astype(np.int64)
     seen: dict[tuple[float, int, int], int] = {}
@@ -120,10 +166,30 @@ def _from_columns(columns: Columns, of_another_axis: bool) -> Positioning:
         targets,
         runs,
         directions,
-        columns.values["deviation"],
+        _deviations(columns, of_another_axis),
         unit_of(rotary),
         columns.details.get("axis", ""),
         columns.file,
         columns.details,
-        unit_of(angular(columns, "deviation")) if of_another_axis else "",
+        unit_of(angular(columns, given)) if of_another_axis else "",
     )
+
+
+def _deviations(columns: Columns, of_another_axis: bool) -> Array:
+    """Return actual − target in µm or ″; MeasurementError where they are the actual positions themselves."""
+    targets = columns.values["target"]
+    if "actual" in columns.values:
+        if of_another_axis:
+            sentence = (
+                "Positions of the master do not say where the slave should be: deviations do, not actual positions."
+            )
+            raise MeasurementError(columns.file, 0, sentence)
+        return np.asarray(columns.values["actual"] - targets)
+    deviations = columns.values["deviation"]
+    units = LENGTHS | ANGLES
+    written, at = (columns.values[name] / units[columns.units[name]] for name in ("deviation", "target"))
+    span = float(np.ptp(at))
+    if len(set(at)) > 2 and span > _SPAN and np.max(np.abs(written - at)) < _FOLLOWS * span:
+        sentence = "The deviations follow the targets one to one: if they are positions, the column is called actual."
+        raise MeasurementError(columns.file, int(columns.lines[0]), sentence)
+    return deviations

@@ -28,12 +28,12 @@ class Readings:
     source: str
 
     @classmethod
-    def read(cls, path: str | Path) -> Self:
-        """Read a file; MeasurementError if it cannot be read, or a line of it."""
+    def read(cls, path: str | Path, axis: str = "") -> Self:
+        """Read a file, of several axes in it that of ``axis``; MeasurementError with the line if it cannot be read."""
         hints = get_type_hints(cls, include_extras=True)
         groups = {name: hint.__metadata__ for name, hint in hints.items() if get_origin(hint) is Annotated}
         every = [one for group in groups.values() for one in group]
-        found = read_columns(Path(path), sorted(every, key=lambda one: one.optional))
+        found = read_columns(Path(path), sorted(every, key=lambda one: one.optional), axis)
         values: dict[str, Any] = cls.about(found)
         for name, group in groups.items():
             arrays: list[Any] = [

@@ -1,4 +1,4 @@
-"""Linear measurements in Renishaw's ``.rtl`` files.
+"""Linear measurements in Renishaw's ``.rtl`` files; what their header says to be something else is refused.
 
 Plain text in sections that begin with ``NAME::``, ``EOF::`` is the last. ``TARGET DATA`` holds ``Target-count`` and,
 behind ``Targets :``, the targets in mm, some to a line, up to ``Flags:``; ``RUNS`` the ``Run-count``; ``DEVIATIONS``,
@@ -20,9 +20,21 @@ import numpy as np
 import numpy.typing as npt
 
 from ..engine import Array
-from .columns import LARGEST, MeasurementError, read_text
+from ..lists import decode
+from .columns import LARGEST, MeasurementError
 
-SUFFIX = ".rtl"
+SUFFIXES = (".rtl", ".rta", ".rts", ".rtf", ".rtx", ".rtq")
+_TYPES = {"rta": "angular", "rts": "straightness", "rtf": "flatness"}
+_OTHERS = {
+    "angular": "an angular measurement: its deviations are pitch or yaw, not positions",
+    "straightness": "a straightness measurement: its deviations are across the axis, not along it",
+    "flatness": "a flatness measurement: its deviations are heights of a surface, not positions",
+    "squareness": "a squareness measurement: its deviations are across the axes, not along one",
+    "rotary": "a measurement of a rotary axis, whose layout is another one",
+    "diagonal": "a measurement of a diagonal, along which several axes move",
+    "dynamic": "a dynamic measurement over time, without targets",
+}
+"""What headers may say, and why it makes no positioning."""
 _SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _-]*?)\s*::\s*\Z")
 _FIELD = re.compile(r"\s*([A-Za-z][A-Za-z0-9 _.-]*?)\s*:\s*(.*?)\s*\Z")
 
@@ -33,16 +45,26 @@ LinearReadings = tuple[Array, npt.NDArray[np.int64], npt.NDArray[np.int64], Arra
 
 def is_rtl(path: Path) -> bool:
     """Tell from the name whether a file is one."""
-    return path.suffix.lower() == SUFFIX
+    return path.suffix.lower() in SUFFIXES
 
 
 def read_rtl(path: Path) -> tuple[LinearReadings, dict[str, str]]:
     """Return readings and details of a file; MeasurementError, with the line, if it is damaged."""
     reader = _Reader(str(path))
-    for line, written in enumerate(read_text(path).split("\n"), 1):
+    for line, written in enumerate(_text(path).split("\n"), 1):
         if written.strip():
             reader.take(line, written)
     return reader.readings(), reader.details
+
+
+def _text(path: Path) -> str:
+    try:
+        text = decode(path.read_bytes())
+    except OSError as error:
+        raise MeasurementError(str(path), 0, f"The file cannot be read: {error.strerror or error}.") from error
+    if text is None:
+        raise MeasurementError(str(path), 0, "The file is no text.")
+    return text
 
 
 class _Reader:
@@ -69,10 +91,25 @@ class _Reader:
                 self._counts[self._field] = self._whole(line, rest), line
             elif self._section in ("HEADER", "USER-TEXT") and rest:
                 self.details.setdefault(self._field, rest)
+                if self._section == "HEADER":
+                    self._check_header(line, rest)
         if self._section == "TARGET DATA" and self._field == "targets":
             self._targets += [self._number(line, word) for word in rest.split()]
         elif self._section == "DEVIATIONS" and self._field == "run target data" and rest.strip():
             self._reading(line, rest.split())
+
+    def _check_header(self, line: int, said: str) -> None:
+        """Refuse what is no linear measurement."""
+        words = said.lower()
+        if self._field == "file type":
+            words = _TYPES.get(words.lstrip("."), words)
+        other = next((why for name, why in _OTHERS.items() if name in words), None)
+        if other is not None:
+            raise self._error(
+                line, f"The header says “{said}”: this is {other}. A .rtl file of linear readings is needed."
+            )
+        if self._field == "owner" and "linear" not in words:
+            raise self._error(line, f"The header says that it is of “{said}”, not of a linear measurement.")
 
     def _reading(self, line: int, words: list[str]) -> None:
         if len(words) != 3:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .companions import fmu_sources, machine_path, models
+from .companions import docs, fmu_sources, licence, machine_path, models
 from .curve import Curve
 from .delaunay import Triangulation, triangulate, width
 from .extras import EXTRAS, MissingExtraError, extra_with, missing, needed, sentence
@@ -87,12 +87,14 @@ __all__ = [
     "Triple",
     "Volumetric",
     "as_html",
+    "docs",
     "extra_with",
     "fmu_sources",
     "is_angle",
     "is_grid",
     "jump_of",
     "largest",
+    "licence",
     "machine_path",
     "missing",
     "models",

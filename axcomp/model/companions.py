@@ -1,4 +1,4 @@
-"""Where the package's companions are: the sources of the FMUs and the example machines.
+"""Where the package's companions are: the sources of the FMUs, the example machines, the documentation.
 
 They lie beside the package in a checkout, and inside it in an installed wheel.
 """
@@ -20,6 +20,16 @@ def models() -> Path:
     return _companion("models")
 
 
+def licence() -> Path:
+    """Return the file with the terms under which all of it may be used."""
+    return _companion("LICENSE")
+
+
+def docs() -> Path:
+    """Return the folder of the documentation."""
+    return _companion("docs")
+
+
 def machine_path(text: str) -> Path:
     """Return the path of a machine; ``models/NAME`` and ``NAME`` name an example where nothing else has that path."""
     path = Path(text)
@@ -31,4 +41,4 @@ def machine_path(text: str) -> Path:
 
 def _companion(name: str) -> Path:
     installed = _PACKAGE / f"_{name}"
-    return installed if installed.is_dir() else _PACKAGE.parent / name
+    return installed if installed.exists() else _PACKAGE.parent / name

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -19,6 +20,9 @@ UNITS = 1e9
 FLAT = 10**8
 """A triangle whose longest side is more than this many times its height is left out."""
 
+
+Triangle = tuple[int, int, int]
+"""Numbers of three points, counterclockwise."""
 
 Side = tuple[int, int]
 """Numbers of two points that are joined, the smaller one first."""
@@ -34,7 +38,7 @@ class Point(NamedTuple):
 class Triangulation(NamedTuple):
     """Triangles and hull of a set of points, as numbers of the points; both counterclockwise."""
 
-    triangles: list[tuple[int, int, int]]
+    triangles: list[Triangle]
     edges: list[tuple[int, int]]
 
 
@@ -50,13 +54,7 @@ def triangulate(x: Sequence[float], y: Sequence[float], values: Sequence[Sequenc
         points that differ as little those whose coordinates are smaller.
     """
     points = _whole_points(x, y)
-    candidates = []
-    for a, b, c in combinations(range(len(points)), 3):
-        turn = _turn(points[a], points[b], points[c])
-        if abs(turn) * FLAT > _longest_side_squared(points[a], points[b], points[c]):
-            triangle = (a, b, c) if turn > 0 else (a, c, b)
-            if _circle_is_empty(points, triangle):
-                candidates.append(triangle)
+    candidates = _candidates(tuple(points))
     joined: list[Side] = []
     for side in sorted({frozenset(pair) for t in candidates for pair in combinations(t, 2)}, key=_rank(points, values)):
         a, b = sorted(side)
@@ -65,6 +63,19 @@ def triangulate(x: Sequence[float], y: Sequence[float], values: Sequence[Sequenc
     triangles = [t for t in candidates if all(tuple(sorted(pair)) in joined for pair in combinations(t, 2))]
     sides = [(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)]
     return Triangulation(triangles, [(a, b) for a, b in sides if (b, a) not in sides])
+
+
+@lru_cache(maxsize=32)
+def _candidates(points: tuple[Point, ...]) -> list[Triangle]:
+    """Return the triangles whose circumcircle is empty; the tests of all axes often stand at the same places."""
+    candidates = []
+    for a, b, c in combinations(range(len(points)), 3):
+        turn = _turn(points[a], points[b], points[c])
+        if abs(turn) * FLAT > _longest_side_squared(points[a], points[b], points[c]):
+            triangle = (a, b, c) if turn > 0 else (a, c, b)
+            if _circle_is_empty(points, triangle):
+                candidates.append(triangle)
+    return candidates
 
 
 def width(x: Sequence[float], y: Sequence[float]) -> float:
@@ -109,7 +120,7 @@ def _longest_side_squared(a: Point, b: Point, c: Point) -> int:
     return max((p.x - q.x) ** 2 + (p.y - q.y) ** 2 for p, q in ((a, b), (b, c), (c, a)))
 
 
-def _circle_is_empty(points: Sequence[Point], triangle: tuple[int, int, int]) -> bool:
+def _circle_is_empty(points: Sequence[Point], triangle: Triangle) -> bool:
     """No point lies strictly inside the circumcircle (the in-circle determinant)."""
     a, b, c = (points[i] for i in triangle)
     for i, p in enumerate(points):

@@ -14,6 +14,8 @@ EXTRAS = {
     "tables": _TABLES,
     "frame": ("pandas", "xarray"),
     "completion": ("argcomplete",),
+    "interactive": ("plotly",),
+    "lsp": ("pygls",),
     "demo": (*_PLOT, "pythonfmu", "fmpy", "scipy"),
     "measure": (*_PLOT, *_TABLES, "scipy"),
     "sweep": (*_PLOT, *_TABLES, "dask", "distributed"),

@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..model import fmu_sources
-from .places import GENERATED, layout_header, places_source
+from .places import layout_header, places_source
 from .records import records_source
 
 
 def write(folder: Path) -> list[Path]:
     """Write ``layout.h``, ``places.c`` and ``records.c``; return their paths."""
-    texts = {"layout.h": layout_header(), "places.c": places_source(), "records.c": records_source(GENERATED)}
+    texts = {"layout.h": layout_header(), "places.c": places_source(), "records.c": records_source()}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
     return [folder / name for name in texts]

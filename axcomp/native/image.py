@@ -15,16 +15,17 @@ from .records import initializer, record_bytes, wrapped
 
 MAGIC = b"AXCOMPT3"
 HEADER_BEFORE_CHECK = struct.Struct("<8sIHHI")
-HEADER_AFTER_CHECK = struct.Struct("<40sdI228s")
+HEADER_AFTER_CHECK = struct.Struct("<40sdHH228s")
 SAID = 227
 """Bytes of the first error that an image tells."""
 
 
-def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) -> bytes:
+def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = (), *, real_only: bool = False) -> bytes:
     """Return the image of tables.
 
     ``guid``: that of the modelDescription.xml they belong to, at most 39 characters; ``findings``: what there was to
     say about their lists: with errors among them ``reload`` refuses the image, as it refuses lists (semantics §2).
+    ``real_only``: that model description calls Booleans and Integers Real.
     """
     errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     # Not the folder: an FMU is the same wherever it is built.
@@ -36,11 +37,13 @@ def image_of(compiled: Compiled, guid: str, findings: Iterable[Finding] = ()) ->
     body = b"".join(map(record_bytes, [*axes, *volumetrics]))
     body += struct.pack(f"<{len(pool)}d", *pool)
     before = HEADER_BEFORE_CHECK.pack(MAGIC, layout(), len(axes), len(volumetrics), len(pool))
-    checked = HEADER_AFTER_CHECK.pack(guid.encode()[:40], tables.cycle_time, len(errors), said) + body
+    checked = (
+        HEADER_AFTER_CHECK.pack(guid.encode()[:40], tables.cycle_time, min(len(errors), 0xFFFF), real_only, said) + body
+    )
     return before + struct.pack("<I", zlib.crc32(checked)) + checked
 
 
-def tables_source(compiled: Compiled, guid: str) -> str:
+def tables_source(compiled: Compiled, guid: str, *, real_only: bool = False) -> str:
     """Return tables as C: records that the compiler initializes, for any byte order and pointer size."""
     tables, pool = compiled
     axes, volumetrics = tables.axis[: tables.axis_count], tables.volumetric[: tables.volumetrics]
@@ -54,7 +57,8 @@ def tables_source(compiled: Compiled, guid: str) -> str:
     tables_of += "(VolumetricTable *)volumetrics" if volumetrics else "NULL"
     parts.append(
         "/* Nothing writes through the pointers: these tables are in force from beginning to end. */\n"
-        f'const Lists axcomp_tables = {{{{{tables_of}}}, pool, {len(pool)}, 0x{identity:08x}u, "{guid}"}};\n'
+        f'const Lists axcomp_tables = {{{{{tables_of}}}, pool, {len(pool)}, 0x{identity:08x}u, "{guid}", '
+        f"{str(real_only).lower()}}};\n"
     )
     return "\n".join(parts)
 

@@ -26,9 +26,8 @@ from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_
 from ..kinds import KIND_NAMES, KINDS
 from ..model import CYCLE_TIME_MAX
 from ..runtime import NO_COMMAND, ON_INSTANT
-from .records import parts_of, size_of
+from .records import GENERATED, parts_of, size_of
 
-GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
 TABLES = {
     "axcomp_machine_places": MACHINE_BLOCK,
     "axcomp_axis_places": AXIS_BLOCK,
@@ -112,6 +111,6 @@ def _member(block: int, declared: Declaration) -> str:
 def _fields_in(cls: Any) -> Iterator[str]:
     """Yield the fields of a record, and behind each those of the records in it, with their types and lengths."""
     for part in parts_of(cls):
-        yield f"{part.name} {part.type.__name__} {part.count}"
+        yield f"{part.name} {part.type.__name__} {part.length}"
         if dataclasses.is_dataclass(part.type):
             yield from _fields_in(part.type)

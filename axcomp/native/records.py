@@ -7,31 +7,37 @@ from __future__ import annotations
 
 import struct
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from functools import cache
-from typing import Annotated, Any, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, NamedTuple, cast, get_args, get_origin
 
 from ..kernel import AxisTable, VolumetricTable, fields_of
 
+GENERATED = "/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */"
 _LETTERS = {float: "d", int: "i", bool: "b"}
 _FORMATS = {float: "d", int: "i", bool: "?"}
 _C_TYPES = {float: "double", int: "int32_t", bool: "bool"}
+GENERATED = "/* Generated from axcomp/interface/declarations.py by `python -m axcomp.native`; do not edit. */"
 ROOTS = {"axcomp_axis_parts": AxisTable, "axcomp_volumetric_parts": VolumetricTable}
 """Table of parts in C → record."""
 
 
 class Part(NamedTuple):
-    """A field of a record: ``count`` elements of a type; ``is_list``: in an array."""
+    """A field of a record: ``length`` elements of a type; ``is_list``: in an array."""
 
     name: str
     type: Any
-    count: int
+    length: int
     is_list: bool
 
 
-@cache
 def parts_of(cls: Any) -> tuple[Part, ...]:
     """Return the fields of a record."""
+    return _parts_of(cls)
+
+
+@cache
+def _parts_of(cls: Hashable) -> tuple[Part, ...]:
     parts = []
     for name, hint in fields_of(cls).items():
         is_list = get_origin(hint) is Annotated
@@ -41,18 +47,18 @@ def parts_of(cls: Any) -> tuple[Part, ...]:
 
 
 @cache
-def _format(cls: Any) -> str:
-    return "".join(_FORMATS.get(part.type) or _format(part.type) for part in parts_of(cls) for _ in range(part.count))
+def _format(cls: Hashable) -> str:
+    return "".join(_FORMATS.get(part.type) or _format(part.type) for part in parts_of(cls) for _ in range(part.length))
 
 
-def size_of(cls: Any) -> int:
+def size_of(cls: Hashable) -> int:
     """Return how many bytes of an image a record has."""
     return struct.calcsize("<" + _format(cls))
 
 
 def record_bytes(record: Any) -> bytes:
     """Return the fields of a record: little-endian, without gaps."""
-    return struct.pack("<" + _format(type(record)), *_numbers(record))
+    return struct.pack("<" + _format(cast(Hashable, type(record))), *_numbers(record))
 
 
 def _numbers(record: Any) -> Iterator[float]:
@@ -84,9 +90,9 @@ def _numbers_in(value: Any) -> Iterator[float]:
     return iter((value,)) if isinstance(value, bool | int | float) else _numbers(value)
 
 
-def records_source(generated: str) -> str:
-    """Return the text of ``records.c``; ``generated``: the comment at its begin."""
-    lines = [generated, '#include "records.h"', ""]
+def records_source() -> str:
+    """Return the text of ``records.c``."""
+    lines = [GENERATED, '#include "records.h"', ""]
     written: set[Any] = set()
 
     def name_of(cls: Any) -> str:
@@ -105,7 +111,7 @@ def records_source(generated: str) -> str:
             kind = _C_TYPES[part.type] if known else part.type.__name__
             inner = "NULL" if known else name_of(part.type)
             place = f"offsetof({cls.__name__}, {part.name})"
-            lines.append(f"    {{'{_LETTERS.get(part.type, 'r')}', {part.count}, {place}, sizeof({kind}), {inner}}},")
+            lines.append(f"    {{'{_LETTERS.get(part.type, 'r')}', {part.length}, {place}, sizeof({kind}), {inner}}},")
         lines.extend(["    {0, 0, 0, 0, NULL}", "};", ""])
 
     for root in ROOTS.values():

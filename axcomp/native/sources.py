@@ -7,13 +7,13 @@ from pathlib import Path
 
 from ..model import fmu_sources
 
-_PARTS = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "storage", "values")
-SOURCES = tuple(f"{part}.c" for part in _PARTS)
+_COMMON = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "values")
+_HOSTED = ("heap", "image", "lists", "messages", "records", "reload", "resource", "run")
+SOURCES = tuple(f"{part}.c" for part in (*_COMMON, "embedded"))
 HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h")
 """Of an FMU, in ``fmu_src/native``; its tables are among its sources, and ``config.h`` is another one there."""
 
-_LIBRARY_PARTS = ("image", "lists", "records", "reload", "resource")
-LIBRARY_SOURCES = (*SOURCES, *(f"{part}.c" for part in _LIBRARY_PARTS), "run.c")
+LIBRARY_SOURCES = tuple(f"{part}.c" for part in (*_COMMON, *_HOSTED))
 LIBRARY_HEADERS = (*HEADERS, "config.h", "lists.h", "records.h", "resource.h", "run.h")
 """Of the libraries, which read images; the Engine runs its trajectories in them too."""
 

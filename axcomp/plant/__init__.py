@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
+    from .drawing import drawn as drawn
     from .fmu import package_plant as package_plant, plant_variables as plant_variables
-    from .machine import Plant as Plant, PlantError as PlantError
+    from .machine import MEMORYLESS as MEMORYLESS, REMEMBERING as REMEMBERING, Plant as Plant, PlantError as PlantError
     from .simulated import (
         CYCLE_TIME as CYCLE_TIME,
         acceleration_test as acceleration_test,
+        circle_setpoints as circle_setpoints,
+        circular_test as circular_test,
         deviation as deviation,
         flatness as flatness,
         friction_current as friction_current,
@@ -31,9 +34,10 @@ if TYPE_CHECKING:
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
+        drawing="drawn",
         fmu="package_plant plant_variables",
-        machine="Plant PlantError",
-        simulated="CYCLE_TIME acceleration_test deviation flatness friction_current load_plant positioning "
-        "straightness",
+        machine="MEMORYLESS Plant PlantError REMEMBERING",
+        simulated="CYCLE_TIME acceleration_test circle_setpoints circular_test deviation flatness friction_current "
+        "load_plant positioning straightness",
         simulated_volume="IsoErrors linear_axis_errors table_errors",
     )

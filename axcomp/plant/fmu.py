@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
+from typing import Any
 
 from .. import __version__
-from ..fmu import PACKAGE, BuildError, Description, file_bytes, generation_date, write_python_fmu
+from ..fmu import PACKAGE, BuildError, Description, accompanying, file_bytes, generation_date, write_python_fmu
 from ..interface import Variable, identifier
 from ..model import fmu_sources
 from . import variables as declared
@@ -51,8 +53,12 @@ def plant_variables(folder: Path) -> tuple[Variable, ...]:
     return tuple(variables)
 
 
-def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str], *, external_tool: bool = True) -> Path:
+def package_plant(
+    model: str | os.PathLike[str], output: str | os.PathLike[str], *, external_tool: bool = True, **instead: Any
+) -> Path:
     """Write the FMU of the plant that ``plant.json`` in a model's folder describes; a folder: ``plant.fmu`` in it.
+
+    ``instead``: entries of the description that are others, ``seed`` and ``choice`` say.
 
     Raises
     ------
@@ -60,6 +66,9 @@ def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str],
         If the description is missing or wrong, pythonfmu is missing, or the file cannot be written.
     """
     variables = plant_variables(Path(model))
+    data = file_bytes(Path(model) / FILE_NAME)
+    if instead:
+        data = json.dumps({**json.loads(data), **instead}, indent=1).encode()
     description = Description(
         name="plant",
         text="Drives, friction and geometric errors of a machine",
@@ -69,4 +78,5 @@ def package_plant(model: str | os.PathLike[str], output: str | os.PathLike[str],
         capabilities={"needsExecutionTool": external_tool},
     )
     sources = (fmu_sources() / "plant_slave.py", PACKAGE)
-    return write_python_fmu(output, description, variables, sources, {FILE_NAME: file_bytes(Path(model) / FILE_NAME)})
+    shown = accompanying(description, variables)
+    return write_python_fmu(output, description, variables, sources, {FILE_NAME: data}, shown)

@@ -8,13 +8,18 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from .drawing import drawn
 from .drive import STATE, Drive
-from .geometry import AxisErrors, MotionState
+from .geometry import AxisErrors
+from .memory import Remembering
+from .motion import MotionState
 from .poses import Vector
 from .rigid_bodies import RigidBodies
 
 FILE_NAME = "plant.json"
 
+REMEMBERING, MEMORYLESS = CHOICES = ("remembering", "memoryless")
+"""What a plant may be, ``choice`` in its description."""
 
 WRONG = (AttributeError, KeyError, TypeError, ValueError, OverflowError, ZeroDivisionError)
 """What using a wrong description raises."""
@@ -28,11 +33,18 @@ class Plant:
     """Drives, masses and geometric errors of a machine.
 
     The description has ``sub_step`` in s and ``axes``, one for each, as in ``models/*/plant.json``, and
-    ``rigid_bodies`` (see there) for a machine whose tool tip is of interest. Everything that is a list of axes has the
-    order of ``names``; ``units`` are ``mm`` or ``deg``, ``modulo`` the range of a modulo axis in °, 0.0 for the others.
+    ``rigid_bodies`` (see there) for a machine whose tool tip is of interest. ``choice`` is ``remembering``, all of it,
+    or ``memoryless``: friction without memory, no swinging, no growth, only compliance that tables hold. Numbers that
+    are ranges are drawn by ``seed`` (0). Everything that is a list of axes has the order of ``names``; ``units`` are
+    ``mm`` or ``deg``, ``modulo`` the range of a modulo axis in °, 0.0 for the others.
     """
 
     def __init__(self, description: Mapping[str, Any]) -> None:
+        choice = description.get("choice", REMEMBERING)
+        if choice not in CHOICES:
+            raise PlantError(f"choice is {' or '.join(CHOICES)}, not {choice!r}")
+        memoryless = choice == MEMORYLESS
+        description = drawn(description, int(description.get("seed", 0)))
         axes = description["axes"]
         self.sub_step = float(description["sub_step"])
         if not self.sub_step > 0.0:
@@ -45,8 +57,8 @@ class Plant:
             rotary = axis["type"] == "rotary"
             units.append("deg" if rotary else "mm")
             try:
-                self.drives.append(Drive(axis, rotary, float(axis.get("modulo", 0.0))))
-                self.errors.append(AxisErrors(axis["errors"], index, self.names))
+                self.drives.append(Drive(axis, rotary, float(axis.get("modulo", 0.0)), memoryless))
+                self.errors.append(AxisErrors(axis["errors"], index, self.names, memoryless))
             except WRONG as error:
                 raise PlantError(f"axis {axis['name']}: {_what(error)}") from error
         self.units = tuple(units)
@@ -57,14 +69,19 @@ class Plant:
                 self.bodies = RigidBodies(description["rigid_bodies"], self.names, [unit == "deg" for unit in units])
             except WRONG as error:
                 raise PlantError(f"rigid_bodies: {_what(error)}") from error
+        self.remembers = not memoryless and any(
+            axis["friction"].get("model") == "lugre" or errors.remembering
+            for axis, errors in zip(axes, self.errors, strict=True)
+        )
+        """Whether the choice without memory is another plant."""
         self.motion = MotionState(len(axes))
         self.rest_at([0.0] * len(axes))
 
     @classmethod
-    def from_file(cls, path: Path) -> Plant:
-        """Read ``plant.json``; PlantError says what is wrong with it."""
+    def from_file(cls, path: Path, **instead: Any) -> Plant:
+        """Read ``plant.json``, with other entries ``instead``; PlantError says what is wrong with it."""
         try:
-            return cls(json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse))
+            return cls({**json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse), **instead})
         except OSError as error:
             raise PlantError(f"{path}: {error.strerror or error}") from error
         except PlantError as error:
@@ -82,6 +99,16 @@ class Plant:
         """Positions of the tool: what the encoders see and the geometric errors."""
         motion = self.motion
         return [position + errors.error(motion) for position, errors in zip(motion.positions, self.errors, strict=True)]
+
+    @property
+    def beyond(self) -> list[float]:
+        """The parts of the geometric errors that no table of positions and accelerations holds."""
+        return [errors.beyond(self.motion) for errors in self.errors]
+
+    @property
+    def remembering(self) -> list[Remembering]:
+        """All errors with a state."""
+        return [part for errors in self.errors for part in errors.remembering]
 
     def place(self, point: Vector) -> Vector:
         """Return where a point that moves with the tool is, seen from the workpiece, mm (see ``RigidBodies.place``).
@@ -106,6 +133,8 @@ class Plant:
             drive.rest_at(position)
         self.motion.approach = list(approach) if approach is not None else [1.0] * len(self.drives)
         self._see()
+        for part in self.remembering:
+            part.rest(self.motion)
 
     def step(self, setpoints: Sequence[float], currents: Sequence[float], duration: float) -> None:
         """Go on for ``duration`` s towards ``setpoints`` (mm or °) with additive ``currents`` (mA)."""
@@ -119,6 +148,8 @@ class Plant:
                 travel -= drive.modulo * round(travel / drive.modulo)
             approach[index] = self.errors[index].take_up(approach[index], travel)
         self._see()
+        for part in self.remembering:
+            part.advance(self.motion, duration)
 
     def _see(self) -> None:
         motion = self.motion
@@ -126,19 +157,24 @@ class Plant:
             motion.positions[index] = drive.position
             motion.velocities[index] = drive.velocity
             motion.accelerations[index] = drive.acceleration
+            motion.powers[index] = drive.power
 
     @property
     def state(self) -> list[float]:
         """Everything the plant remembers, as one list of floats."""
         values = [getattr(drive, name) for drive in self.drives for name in STATE]
-        return values + self.motion.approach
+        return values + self.motion.approach + [value for part in self.remembering for value in part.state]
 
     @state.setter
     def state(self, values: Sequence[float]) -> None:
         for index, drive in enumerate(self.drives):
             for name, value in zip(STATE, values[index * len(STATE) :], strict=False):
                 setattr(drive, name, value)
-        self.motion.approach = list(values[len(self.drives) * len(STATE) :])
+        at = len(self.drives) * (len(STATE) + 1)
+        self.motion.approach = list(values[at - len(self.drives) : at])
+        for part in self.remembering:
+            part.state = list(values[at : at + len(part.state)])
+            at += len(part.state)
         self._see()
 
 

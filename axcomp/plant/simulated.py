@@ -9,18 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ..engine import Array, Course, Limits
+from ..engine import Array, Course, Limits, Setpoints, move
 from .machine import FILE_NAME, Plant
 
 CYCLE_TIME = 0.001
 
 
-def load_plant(folder: Path) -> Plant:
-    """Return the plant that ``plant.json`` in a model's folder describes."""
-    return Plant.from_file(folder / FILE_NAME)
+def load_plant(folder: Path, **instead: Any) -> Plant:
+    """Return the plant that ``plant.json`` in a model's folder describes, with other entries ``instead``."""
+    return Plant.from_file(folder / FILE_NAME, **instead)
 
 
 def deviation(plant: Plant, axis: str, at: Mapping[str, float], direction: int = 1) -> float:
@@ -109,3 +110,46 @@ def _middle_of(accelerations: Array, wanted: float) -> int:
     """Return the middle cycle of the stretch at the wanted acceleration."""
     steady = np.flatnonzero(np.abs(accelerations - wanted) < 1e-6 * abs(wanted))
     return int(steady[len(steady) // 2])
+
+
+def circular_test(
+    plant: Plant,
+    axes: tuple[str, str],
+    radius: float,
+    feed: float,
+    direction: int,
+    currents: Mapping[str, Array] | None = None,
+) -> Array:
+    """Return where two axes are on a circle about 0, once round and a quarter more, shape (cycles, 2), mm.
+
+    ``direction``: 1 counter-clockwise; ``currents``: additional ones by axis, as long as ``circle_setpoints``.
+    """
+    path = circle_setpoints(axes, radius, feed, direction)
+    indices = [plant.names.index(axis) for axis in axes]
+    setpoints, added = [0.0] * len(plant.names), [0.0] * len(plant.names)
+    columns = [path[axis].position.tolist() for axis in axes]
+    extra = [(currents or {}).get(axis, np.zeros(len(columns[0]))).tolist() for axis in axes]
+    for index, column in zip(indices, columns, strict=True):
+        setpoints[index] = column[0]
+    plant.rest_at(setpoints)
+    found = np.empty((len(columns[0]), 2))
+    for cycle in range(len(found)):
+        for index, column, current in zip(indices, columns, extra, strict=True):
+            setpoints[index], added[index] = column[cycle], current[cycle]
+        plant.step(setpoints, added, CYCLE_TIME)
+        found[cycle] = [plant.true[index] for index in indices]
+    rate = feed / radius
+    return found[-round((2.0 * np.pi + 0.5 * np.pi) / rate / CYCLE_TIME) - _RUN_OUT : -_RUN_OUT]
+
+
+_RUN_OUT = 250
+"""Cycles at the end of a circle that are not recorded: the axes slow down."""
+
+
+def circle_setpoints(axes: tuple[str, str], radius: float, feed: float, direction: int) -> dict[str, Setpoints]:
+    """Return what a controller commands two axes on a circle about 0 that begins between two reversals."""
+    rate = feed / radius
+    turned = move(0.0, 3.0 * np.pi + 0.5, CYCLE_TIME, Limits(rate, 10.0 * rate, 200.0 * rate))
+    angle = direction * (turned - 0.25 * np.pi)
+    shapes = zip(axes, (np.cos(angle), np.sin(angle)), strict=True)
+    return {axis: Setpoints.through(radius * shape, CYCLE_TIME) for axis, shape in shapes}

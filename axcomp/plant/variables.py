@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-BLOCK = 8
+BLOCK = 16
 
 
 class Declaration(NamedTuple):
@@ -33,11 +33,20 @@ OF_AXIS = (
     Declaration("motor_current", "output", "mA", "Motor current, which at constant velocity overcomes friction"),
     Declaration("following_error", "output", "{}", "Interpolated setpoint - measured position"),
     Declaration("commanded_position", "input", "{}", "Setpoint before compensation, for tcp.nominal only", True),
+    Declaration("beyond_tables", "output", "{}", "Part of true - measured position that no table holds"),
 )
 
-SETPOINT, CURRENT, TRUE_POSITION, MEASURED_POSITION, VELOCITY, MOTOR_CURRENT, FOLLOWING_ERROR, COMMANDED_POSITION = (
-    range(len(OF_AXIS))
-)
+(
+    SETPOINT,
+    CURRENT,
+    TRUE_POSITION,
+    MEASURED_POSITION,
+    VELOCITY,
+    MOTOR_CURRENT,
+    FOLLOWING_ERROR,
+    COMMANDED_POSITION,
+    BEYOND,
+) = range(len(OF_AXIS))
 
 OF_MACHINE = (
     Declaration("tool_length", "input", "mm", "Length of the tool", True),

@@ -19,28 +19,35 @@ if TYPE_CHECKING:
     from .contents import contents_of as contents_of
     from .curves import Curves as Curves
     from .field import Field as Field
+    from .interactive import NoPlotlyError as NoPlotlyError, script as script
     from .maps import Map as Map
     from .pages import (
         document as document,
         html_table as html_table,
+        made as made,
         navigation as navigation,
         overview as overview,
         page as page,
         picture as picture,
         remarks as remarks,
         section as section,
+        sections as sections,
         shown as shown,
     )
     from .style import (
         COLOURS as COLOURS,
         DOWN as DOWN,
         UP as UP,
+        embedded as embedded,
+        framed_figure as framed_figure,
         labelled as labelled,
         line_styles as line_styles,
         new_figure as new_figure,
         png as png,
         printed as printed,
         save as save,
+        svg as svg,
+        thinned as thinned,
     )
     from .terminal import compared as compared, console as console, figure as figure, table as table
 else:
@@ -51,8 +58,9 @@ else:
         contents="contents_of",
         curves="Curves",
         field="Field",
+        interactive="NoPlotlyError script",
         maps="Map",
-        pages="document html_table navigation overview page picture remarks section shown",
-        style="COLOURS DOWN UP labelled line_styles new_figure png printed save",
+        pages="document html_table made navigation overview page picture remarks section sections shown",
+        style="COLOURS DOWN UP embedded framed_figure labelled line_styles new_figure png printed save svg thinned",
         terminal="compared console figure table",
     )

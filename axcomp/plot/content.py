@@ -82,6 +82,10 @@ class Content(ABC):
     def figure(self) -> Figure:
         """Return its picture."""
 
+    def interactive(self) -> str:
+        """Return a picture to be turned, as HTML, "" where a flat one shows all; NoPlotlyError without Plotly."""
+        return ""
+
     @abstractmethod
     def records(self) -> Records:
         """Return all its numbers."""

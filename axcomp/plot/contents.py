@@ -29,11 +29,12 @@ from ..model import (
 )
 from .bars import Bars
 from .content import VOLUMETRIC, Content, Subject
-from .curves import Array, Curves
+from .curves import Curves
 from .field import Field
 from .maps import Layer, Map
+from .style import Array
 
-SAMPLES_SCATTERED = 61
+SAMPLES_SCATTERED = 31
 """Samples along each side of a map that is given by scattered tests."""
 SAMPLES = 41
 """Samples along each side of a map of volumetric errors."""

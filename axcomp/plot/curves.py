@@ -6,17 +6,14 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.figure import Figure
 
 from ..model import Curve, Quantity
 from .content import Content, Records, span
-from .style import COLOURS, labelled, line_styles, new_figure, printed
+from .style import COLOURS, Array, finest, framed_figure, labelled, line_styles, printed, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-Array = npt.NDArray[np.float64]
 
 WIDE_RATIO = 50.0
 """From this ratio of the largest to the smallest point on, points are drawn on a logarithmic scale where it helps."""
@@ -62,10 +59,10 @@ class Curves(Content):
     def figure(self) -> Figure:
         """Return the curves, and below them their difference where it is of interest."""
         if not (self.reversal and len(self.lines) == 2):
-            figure = new_figure()
+            figure = framed_figure()
             plot_curves(figure.add_subplot(), self)
             return figure
-        figure = new_figure(1.3)
+        figure = framed_figure(1.3)
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
         plot_curves(upper, self).set_xlabel("")
         plot_reversal(lower, self)
@@ -125,7 +122,7 @@ class CurvesDifference(Curves):
 
     def figure(self) -> Figure:
         """Return both sets in one picture, and their difference below."""
-        figure = new_figure(1.3)
+        figure = framed_figure(1.3)
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
         one, other = self.pair
         plot_curves(upper, one, suffix=", this one")
@@ -144,21 +141,24 @@ class CurvesDifference(Curves):
 
 def plot_curves(ax: Axes, curves: Curves, *, suffix: str = "", style: str = "-", hollow: bool = False) -> Axes:
     """Draw curves with their points into ``ax``; return it."""
+    logarithmic = curves.logarithmic and _is_wide(curves.points())
     # Of two the second is thinner: where they lie upon each other both are seen.
     for index, (line, (colour, marker)) in enumerate(zip(curves.lines, line_styles(len(curves.lines)), strict=True)):
+        many = len(line.x) > MARKED_MAX
+        x, y = np.array(line.x), np.array(line.y)
         ax.plot(
-            line.x,
-            line.y,
+            *(thinned(x, y) if many and not logarithmic else (x, y)),
             style,
             color=colour,
             lw=2.2 if index == 0 and len(curves.lines) == 2 else 1.4,
-            marker=marker if len(line.x) <= MARKED_MAX else None,
+            marker=None if many else marker,
             ms=4.5 if len(line.x) <= MARKED_MAX // 3 else 3.0,
             markerfacecolor="white" if hollow else colour,
             label=printed(line.label + suffix),
         )
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
-    if curves.logarithmic and _is_wide(curves.points()):
+    _widen(ax, curves.y)
+    if logarithmic:
         ax.set_xscale("log")
         ax.xaxis.set_major_formatter("{x:g}")
     if len(curves.lines) > 1 or suffix:
@@ -171,13 +171,23 @@ def plot_reversal(ax: Axes, curves: Curves) -> Axes:
     first, second = curves.lines
     x = curves.points()
     difference = np.array(first.at(x)) - second.at(x)
-    ax.fill_between(x, 0.0, difference, color=COLOURS[2], alpha=0.2, lw=0)
-    ax.plot(x, difference, "-", color=COLOURS[2], lw=1.4)
+    seen = thinned(x, difference) if len(x) > MARKED_MAX else (x, difference)
+    ax.fill_between(*seen, color=COLOURS[2], alpha=0.2, lw=0)
+    ax.plot(*seen, "-", color=COLOURS[2], lw=1.4)
     ax.axhline(0.0, color="0.6", lw=0.8, zorder=0)
+    _widen(ax, curves.y)
     title = f"{first.label} − {second.label}: {difference.min():.1f} … {difference.max():.1f} {curves.y.unit}"
     labelled(ax, title, str(curves.x), f"difference [{curves.y.unit}]")
     ax.title.set_fontsize(11)
     return ax
+
+
+def _widen(ax: Axes, of: Quantity) -> None:
+    """Let rounding look as small as it is."""
+    low, high = ax.get_ylim()
+    if high - low < finest(of):
+        middle, half = 0.5 * (low + high), 0.5 * finest(of)
+        ax.set_ylim(middle - half, middle + half)
 
 
 def _is_wide(x: Array) -> bool:

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from ..model import shown
 from .content import Content, Records, span
-from .curves import Array
-from .style import new_figure, printed, sequential
+from .interactive import interactive
+from .style import Array, new_figure, printed, sequential
 
 LONGEST = 0.9
 """Length of the longest arrow, in mean distances of neighbouring positions."""
@@ -48,12 +48,22 @@ class Field(Content):
         largest = float(self.sizes().max())
         return largest if largest > ROUNDING else 0.0
 
+    @property
+    def enlargement(self) -> float:
+        """How many mm each µm is drawn, so that the longest arrow is a little shorter than the way between places."""
+        largest = self.largest()
+        return float(f"{LONGEST * _distance(self.positions) / largest:.2g}") if largest else 0.0
+
+    def interactive(self) -> str:
+        """Return the volume as it should be and as it is, to be turned and travelled through."""
+        return interactive(self, self.enlargement)
+
     def figure(self) -> Figure:
         """Return the arrows, much enlarged, coloured by their size."""
         figure = new_figure(1.3)
         ax: Any = figure.add_subplot(projection="3d")
         largest = self.largest()
-        scale = float(f"{LONGEST * _distance(self.positions) / largest:.2g}") if largest else 0.0
+        scale = self.enlargement
         mappable = ScalarMappable(Normalize(0.0, largest or 1.0), sequential())
         # The collection holds all shafts, then all left and all right strokes of the heads.
         colours = np.tile(mappable.to_rgba(self.sizes()), (3, 1))

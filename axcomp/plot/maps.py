@@ -4,25 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from contourpy import contour_generator
 from matplotlib.figure import Figure
-from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
 from ..model import Grid, Quantity, Scatter
 from .content import Content, Records, picked, span, spread
-from .curves import Array
-from .style import DIVERGING, labelled, new_figure, printed
+from .style import DIVERGING, ROUNDING, Array, finest, framed_figure, labelled, printed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import QuadMesh
+    from matplotlib.contour import ContourSet
 
 COLUMNS_SHOWN = 9
 """Columns of a map in the terminal."""
 CONTOURS = 9
+LABELS_MAX = 40
+"""Pieces of contours that are drawn at most: more of them would be a tangle, and the bands of colour tell as much."""
+BANDS = 25
+"""Colours from the least to the greatest value, one of them white around 0."""
+CELLS = 150
+"""Points along each side that a picture can show."""
 FLAT, FLAT_SHARE = 0.02, 0.1
 """Values below this share of the largest are 0; where so many of them are, a contour along 0 would be noise."""
 
@@ -91,20 +97,27 @@ class Map(Content):
 
     def values(self) -> Array:
         """Return the values on the grid, shape (layers, ny, nx)."""
+        return self._values
+
+    @cached_property
+    def _values(self) -> Array:
         return self.at(self.across, self.up)
 
     def figure(self) -> Figure:
         """Return the maps side by side with one scale of colours."""
         columns = min(len(self.layers), 2)
         rows = -(-len(self.layers) // columns)
-        figure = new_figure(1.25 if rows == 1 else 0.85 * rows)
+        figure = framed_figure(1.25 if rows == 1 else 0.85 * rows, heading=len(self.layers) > 1)
+        figure.subplots_adjust(right=0.94)
         values = self.values()
-        limit = float(np.abs(values).max()) or 1.0
-        axes = figure.subplots(rows, columns, squeeze=False)
+        limit = max(float(np.abs(values).max()), finest(self.z))
+        axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
         for layer, shown, ax in zip(self.layers, values, axes.flat, strict=True):
-            mesh = plot_map(ax, self, shown, limit)
+            filled = plot_map(ax, self, shown, limit)
+            ax.label_outer()
             ax.set_title(printed(layer.label or self.title), fontsize=12)
-        figure.colorbar(mesh, ax=axes, aspect=30).set_label(str(self.z), fontsize=11)
+        bar = figure.colorbar(filled, ax=axes, fraction=0.03, pad=0.02, aspect=30, ticks=MaxNLocator(CONTOURS))
+        bar.set_label(str(self.z), fontsize=11)
         if len(self.layers) > 1:
             figure.suptitle(printed(self.title), fontsize=13)
         return figure
@@ -155,23 +168,29 @@ class Map(Content):
         )
 
 
-def plot_map(ax: Axes, content: Map, values: Array, limit: float) -> QuadMesh:
+def plot_map(ax: Axes, content: Map, values: Array, limit: float) -> ContourSet:
     """Draw one map into ``ax``, its colours from −limit to limit (> 0), with contours; return it for their scale.
 
     ``values``, shape (ny, nx), are those of one layer. ``ax`` gets labels, but no title.
     """
     across, up = (_widened(side) for side in (content.across, content.up))
     wide = np.pad(values, ((0, len(up) - len(content.up)), (0, len(across) - len(content.across))), mode="edge")
-    mesh = ax.pcolormesh(across, up, wide, cmap=DIVERGING, vmin=-limit, vmax=limit, shading="gouraud", rasterized=True)
-    if np.ptp(values) > 0.0 and min(values.shape) > 1:
-        lines = ax.contour(across, up, values, levels=_levels(values), colors="0.15", linewidths=0.6)
-        halo: list[AbstractPathEffect] = [withStroke(linewidth=2.0, foreground="white", alpha=0.8)]
-        for label in ax.clabel(lines, fontsize=9, fmt=lambda level: printed(f"{level:.3g}")):
-            label.set_path_effects(halo)
+    chosen = np.ix_(spread(len(up), CELLS), spread(len(across), CELLS))
+    across, up, wide = across[chosen[1].ravel()], up[chosen[0].ravel()], wide[chosen]
+    bands = np.linspace(-limit, limit, BANDS + 1)
+    filled = ax.contourf(across, up, np.clip(wide, -limit, limit), levels=bands, cmap=DIVERGING, antialiased=False)
+    if np.ptp(values) > 2.0 * limit * ROUNDING and min(values.shape) > 1:
+        levels = _levels(values)
+        drawn = contour_generator(across, up, wide)
+        if sum(len(drawn.lines(level)) for level in levels) <= LABELS_MAX:
+            lines = ax.contour(across, up, wide, levels=levels, colors="0.15", linewidths=0.6)
+            for label in ax.clabel(lines, fontsize=9, fmt=lambda level: printed(f"{level:.3g}")):
+                label.set_bbox({"facecolor": "white", "alpha": 0.7, "pad": 0.6, "lw": 0})
     if len(content.points):
         ax.plot(*content.points.T, "o", ms=5, color="black", markeredgecolor="white", clip_on=False, zorder=5)
     labelled(ax, "", str(content.x), str(content.y)).grid(visible=False)
-    return mesh
+    ax.locator_params(nbins=6)
+    return filled
 
 
 def _levels(values: Array) -> list[float]:

@@ -77,7 +77,7 @@ def table(title: str, header: Sequence[str], rows: Iterable[Sequence[str]]) -> W
 
 def figure(value: float, digits: int = 2) -> str:
     """Return a number for a table, a dash where there is none."""
-    return "–" if math.isnan(value) else f"{value + 0.0:.{digits}f}"
+    return "–" if math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def compared(title: str, figures: Mapping[str, Mapping[str, float]], names: Mapping[str, str], unit: str) -> WideTable:

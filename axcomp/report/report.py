@@ -15,7 +15,7 @@ from ..analysis.budget import Budget, budget_figure, budget_of
 from ..analysis.judgement import INTERCHANGED, REVERSED, WITHOUT, WRITTEN, Evidence, Judgement, rate, sentence
 from ..bench import Sample, bench_engine
 from ..lists import Finding, Reading, Severity
-from ..measurement import SYMBOLS, Iso230Result, evaluate
+from ..measurement import SYMBOLS, Iso230Result, evaluate_robustly
 from ..model import CYCLE_TIME, AxisType, Machine, symbol
 from ..plot import (
     Content,
@@ -24,13 +24,15 @@ from ..plot import (
     document,
     figure as number,
     html_table,
+    made,
     navigation,
     new_figure,
     overview,
     picture,
     printed,
     remarks,
-    section,
+    script,
+    sections,
 )
 
 CONTRIBUTIONS_SHOWN = 12
@@ -59,6 +61,8 @@ class Report:
         What a cycle costs on this computer.
     notes : tuple of str
         What could not be done, a sentence each.
+    turning : bool
+        The page has pictures that can be turned: bodies in space, by Plotly's script.
     """
 
     reading: Reading
@@ -68,6 +72,7 @@ class Report:
     budget: Budget | None = None
     costs: tuple[Sample, ...] = ()
     notes: tuple[str, ...] = ()
+    turning: bool = False
 
     @property
     def machine(self) -> Machine:
@@ -84,13 +89,15 @@ class Report:
         return {severity.value: sum(f.severity is severity for f in self.findings) for severity in Severity}
 
     def html(self) -> str:
-        """Return it as one HTML page without script that needs nothing beside it."""
+        """Return it as one HTML page that needs nothing beside it; NoPlotlyError without Plotly if it needs that."""
         return _page(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all figures for JSON."""
         return {
+            "machine": self.reading.name,
             "path": str(self.reading.path),
+            "made": made(),
             "counts": self.counts(),
             "findings": [
                 {"severity": f.severity.value, "file": f.file, "line": f.line, "code": f.code, "message": f.message}
@@ -134,7 +141,7 @@ def make_report(
         reading,
         judgement,
         tuple(contents_of(machine, tool_length=given.tool_length)),
-        tuple(evaluate(measured) for measured in given.readings),
+        tuple(evaluate_robustly(measured) for measured in given.readings),
         budget,
         # No goal is set for a machine at large.
         tuple(bench_engine(machine, "this machine", repeats, math.inf)) if repeats > 0 and machine.axes else (),
@@ -147,8 +154,9 @@ def _page(report: Report) -> str:
     chapters = [(anchor, title, body) for anchor, title, make in _CHAPTERS if (body := make(report))]
     links = navigation((anchor, title) for anchor, title, _ in chapters)
     parts = "\n".join(f'<h2 id="{anchor}">{escape(title)}</h2>\n{body}' for anchor, title, body in chapters)
-    body = f"<p>{_counted(report)}</p>\n{remarks(report.notes)}\n{links}\n{parts}"
-    return document(f"Compensations of {report.reading.path}", body)
+    intro = f"<p>{_counted(report)} Read from {escape(str(report.reading.path))}.</p>"
+    body = f"{intro}\n{remarks(report.notes)}\n{links}\n{parts}"
+    return document(f"Compensations of {report.reading.name}", body, script() if report.turning else "")
 
 
 def _counted(report: Report) -> str:
@@ -297,8 +305,7 @@ def _budget(report: Report) -> str:
 def _tables(report: Report) -> str:
     if not report.contents:
         return "<p>No compensation is in force.</p>"
-    sections = "\n".join(section(content, "h3") for content in report.contents)
-    return f"{html_table(overview(report.contents))}\n{sections}"
+    return f"{html_table(overview(report.contents))}\n{sections(report.contents, 'h3', turning=report.turning)}"
 
 
 def _cost(report: Report) -> str:

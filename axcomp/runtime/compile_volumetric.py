@@ -94,16 +94,11 @@ def _boxes_of(nodes: Sequence[Sequence[float]]) -> tuple[int, list[float]]:
     return leaves, unused + [x for level in reversed(levels) for box in level for side in box for x in side]
 
 
-def _steepest(error: ErrorTable, d: int) -> float:
-    """Return the largest change of an error per mm along argument d; what is no grid can change as it likes."""
-    if error.interpolation is not Interpolation.GRID:
-        return 1.0
+def _neighbours(nodes: Sequence[tuple[float, ...]], d: int) -> list[tuple[int, int, float]]:
+    """Return the pairs of nodes that follow each other along argument d, with their distance."""
     # Nodes that differ in this argument only are neighbours when it is sorted last.
-    rows = sorted(
-        (*node[:d], *node[d + 1 :], node[d], value) for node, value in zip(error.nodes, error.values, strict=True)
-    )
-    pairs = ((a, b) for a, b in pairwise(rows) if a[:-2] == b[:-2])
-    return max((abs((b[-1] - a[-1]) / (b[-2] - a[-2])) for a, b in pairs), default=0.0)
+    rows = sorted(((*node[:d], *node[d + 1 :]), node[d], i) for i, node in enumerate(nodes))
+    return [(i, j, b - a) for (row, a, i), (other, b, j) in pairwise(rows) if row == other]
 
 
 class _Compiler:
@@ -117,6 +112,9 @@ class _Compiler:
         self.table = table
         self.pool = pool
         self.cycle_time = cycle_time
+        # Errors of one block share their nodes.
+        self._checked: set[tuple[int, str, Interpolation]] = set()
+        self._pairs: dict[tuple[int, int], list[tuple[int, int, float]]] = {}
 
     def compile(self) -> None:
         volumetric, table = self.volumetric, self.table
@@ -211,6 +209,15 @@ class _Compiler:
         self._require(len(error.nodes) == len(error.values) > 0, f"{name} has not one value for each node")
         self._require(len(set(error.arguments)) == len(error.arguments), f"{name} depends on an axis twice")
         self._require(set(error.arguments) <= set(assigned), f"{name} depends on an axis that is not assigned")
+        bound = largest(name)
+        self._require(all(abs(value) <= bound for value in error.values), f"{name} has a value beyond ±{bound:g}")
+        block = (id(error.nodes), error.arguments, error.interpolation)
+        if block not in self._checked:
+            self._checked.add(block)
+            self._check_nodes(error)
+
+    def _check_nodes(self, error: ErrorTable) -> None:
+        name = error.name
         self._require(
             all(
                 len(node) == len(error.arguments) and max(map(abs, node), default=0.0) <= LENGTH_MAX
@@ -218,8 +225,6 @@ class _Compiler:
             ),
             f"{name} has a node that is no position of {error.arguments}",
         )
-        bound = largest(name)
-        self._require(all(abs(value) <= bound for value in error.values), f"{name} has a value beyond ±{bound:g}")
         if error.interpolation in (Interpolation.PATH, Interpolation.PATH_XY):
             self._require(set(error.arguments) <= set(LINEAR), f"{name} has no path over {error.arguments}")
             self._require(
@@ -269,12 +274,22 @@ class _Compiler:
         for error in self.volumetric.errors:
             if error.name[-1] not in self.volumetric.chain or not any(error.values):
                 continue
-            steepest = sum(_steepest(error, d) for d, letter in enumerate(error.arguments) if letter in LINEAR)
+            steepest = sum(self._steepest(error, d) for d, letter in enumerate(error.arguments) if letter in LINEAR)
             if is_angle(error.name):
                 table.angular_steepness += steepest
             else:
                 table.steepness += steepest
         table.reach = sum(map(abs, (*table.tool_position, *table.center)))
+
+    def _steepest(self, error: ErrorTable, d: int) -> float:
+        """Return the largest change of an error per mm along argument d; what is no grid can change as it likes."""
+        if error.interpolation is not Interpolation.GRID:
+            return 1.0
+        key = (id(error.nodes), d)
+        if key not in self._pairs:
+            self._pairs[key] = _neighbours(error.nodes, d)
+        values = error.values
+        return max((abs((values[j] - values[i]) / gap) for i, j, gap in self._pairs[key]), default=0.0)
 
     def _fold(self, block: ErrorBlock, d: int, letter: str, first: float, last: float) -> None:
         """Say into which turn the position of a rotary axis is folded; among scattered records all ways go round."""

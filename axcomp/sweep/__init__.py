@@ -18,7 +18,7 @@ if TYPE_CHECKING:
         SpecError as SpecError,
         read_spec as read_spec,
     )
-    from .sweep import job_of as job_of, run_sweep as run_sweep
+    from .sweep import Sweep as Sweep, job_of as job_of, run_sweep as run_sweep
     from .task import perform as perform
 else:
     __all__, __getattr__, __dir__ = face(
@@ -27,6 +27,6 @@ else:
         list_variation="ListEntry Table read_files varied",
         reductions="Reduction",
         spec="ERROR FINDINGS RUN Spec SpecError read_spec",
-        sweep="job_of run_sweep",
+        sweep="Sweep job_of run_sweep",
         task="perform",
     )

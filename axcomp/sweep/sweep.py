@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from .journal import SUFFIX, Journal, keys_of
 from .list_variation import ListEntry, varied
 from .spec import ERROR, FINDINGS, MACHINE, RUN, Run, Spec, SpecError
 from .task import Job, Row, Source, notable, nothing_of, perform, reading_of
+from .units import units_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,12 +33,18 @@ class Sweep:
     """Results of a sweep.
 
     ``table`` has a row a run, in the order of the specification: ``run``, what was varied (columns ``varied``), the
-    results, ``findings``, ``error``. ``taken_over``: rows that were there already.
+    results, ``findings``, ``error``. ``taken_over``: rows that were there already. ``units``: of columns that have
+    one; they stand in ``table.attrs["units"]`` too, which a Parquet file keeps.
     """
 
     table: pd.DataFrame
     varied: tuple[str, ...]
     taken_over: int
+    units: Mapping[str, str] = field(default_factory=dict)
+
+    def labelled(self, name: str) -> str:
+        """Return the name of a column with its unit."""
+        return f"{name} [{self.units[name]}]" if name in self.units else name
 
     @property
     def failed(self) -> pd.DataFrame:
@@ -78,7 +85,7 @@ class Sweep:
             title += f", {len(groups)} lines by {', '.join(others)}"
         elif others:
             ax.legend(fontsize=9)
-        return labelled(ax, title, x, y)
+        return labelled(ax, title, self.labelled(x), self.labelled(y))
 
 
 def job_of(spec: Spec) -> tuple[Job, list[str]]:
@@ -161,7 +168,8 @@ def run_sweep(
                 tell(done, len(runs))
         table = _table(spec, runs, [rows[key] for key in keys])
         varied = tuple(str(name) for name in table if name not in {RUN, FINDINGS, ERROR, *spec.results})
-        sweep = Sweep(table, varied, taken_over)
+        table.attrs["units"] = units = units_of(spec, job)
+        sweep = Sweep(table, varied, taken_over, units)
         sweep.save(output)
         if sweep.failed.empty:
             journal.remove()

@@ -288,6 +288,11 @@ class Body:
             remark = self._margins.above(line)
             self.writer.write("} else {", self._margins.else_notes(line))
             self._block(node.orelse, remark)
+        elif word != "if":  # MISRA C:2012, rule 15.7
+            self.writer.write("} else {")
+            self.writer.depth += 1
+            self.writer.remark("nothing")
+            self.writer.depth -= 1
         self.writer.write("}")
 
     def _while(self, node: ast.While) -> None:

@@ -5,9 +5,7 @@
 
 #include "fmi2.h"
 #include "instance.h"
-#if !defined(AXCOMP_EMBEDDED)
-#include "lists.h"
-#endif
+#include "layout.h"
 
 /* ---- What is the same for all FMUs ---- */
 
@@ -19,17 +17,6 @@ FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void)
 FMI2_EXPORT const char *FMI2_NAME(fmi2GetVersion)(void)
 {
     return fmi2Version;
-}
-
-/* What the host wants to know from now on; `categories`: see Instance. */
-static void log_as_wanted(Instance *instance, fmi2Boolean on, unsigned categories)
-{
-#if defined(AXCOMP_EMBEDDED)
-    (void)instance, (void)on, (void)categories;
-#else
-    instance->logging = on != fmi2False;
-    instance->categories = categories;
-#endif
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, fmi2Boolean on, size_t count,
@@ -56,30 +43,11 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component component, f
         }
         wanted |= known == CATEGORY_ALL ? ~0u : 1u << known;
     }
-    log_as_wanted(instance, on, wanted);
+    axcomp_log_as_wanted(instance, on != fmi2False, wanted);
     return fmi2OK;
 }
 
 /* ---- Creation and destruction ---- */
-
-/* The tables that belong to this FMU; NULL after telling the host why there are none. */
-static const Lists *own_lists(Instance *instance, fmi2String location)
-{
-#if defined(AXCOMP_EMBEDDED)
-    (void)instance, (void)location;
-    return &axcomp_tables;
-#else
-    static const char FILE_NAME[] = "tables.bin";
-    int known = location != NULL && location[0] != 0 ? axcomp_path_of(location, FILE_NAME, instance->own_path)
-                                                     : axcomp_path_beside_library(FILE_NAME, instance->own_path);
-    if (!known) {
-        axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
-        return NULL;
-    }
-    Lists *lists = axcomp_read_lists(instance, fmi2Error, "fmi2Instantiate", instance->own_path);
-    return lists != NULL ? axcomp_share_lists(lists) : NULL;
-#endif
-}
 
 FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
                                                      fmi2String location, const fmi2CallbackFunctions *callbacks,
@@ -94,7 +62,7 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
     if (callbacks != NULL) {
         instance->callbacks = *callbacks;
     }
-    log_as_wanted(instance, logging, ~0u);
+    axcomp_log_as_wanted(instance, logging != fmi2False, ~0u);
 
     int usable = 0;
     if (known[0] == 0) {
@@ -104,7 +72,7 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
     } else if (guid == NULL) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
     } else {
-        instance->first = own_lists(instance, location);
+        instance->first = axcomp_own_lists(instance, location);
         usable = instance->first != NULL && strcmp(guid, instance->first->guid) == 0;
         if (!usable && instance->first != NULL) {
             axcomp_say(instance, fmi2Error, "fmi2Instantiate: the guid is %s, but the tables belong to %s", guid,
@@ -149,6 +117,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component component, f
         return axcomp_say(instance, fmi2Error, "fmi2SetupExperiment: start and stop time do not fit");
     }
     instance->memory.start_time = start;
+    instance->memory.stop_time = stop_defined ? stop : HUGE_VAL;
     return fmi2OK;
 }
 
@@ -170,6 +139,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component compo
     }
     axcomp_preview_outputs(instance);
     instance->memory.phase = STEPPING;
+    instance->memory.time = instance->memory.start_time;
     return fmi2OK;
 }
 
@@ -205,7 +175,17 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component component, fmi2Real t
         return axcomp_say(instance, fmi2Error,
                           "fmi2DoStep: time and step size must be finite, and the step not negative");
     }
-    return axcomp_advance(instance, time + step);
+    const Memory *memory = &instance->memory;
+    double tolerance = AXCOMP_ON_INSTANT * instance->tables.cycle_time; /* hosts add up their steps */
+    if (time < memory->time - tolerance) {
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step from %g s would go back, the last one ended at %g s",
+                          time, memory->time);
+    }
+    if (time + step > memory->stop_time + tolerance) {
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step to %g s goes beyond the stop time, %g s",
+                          time + step, memory->stop_time);
+    }
+    return axcomp_advance(instance, time, time + step);
 }
 
 /* ---- What this FMU does not have ---- */
@@ -218,17 +198,6 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetDirectionalDerivative)(fmi2Component com
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count, (void)seed, (void)sensitivity;
     Instance *instance = (Instance *)component;
     return instance == NULL ? fmi2Error : axcomp_say(instance, fmi2Error, "this FMU has no directional derivatives");
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component component,
-                                                              const fmi2ValueReference references[], size_t count,
-                                                              const fmi2Integer orders[], const fmi2Real values[])
-{
-    (void)references, (void)orders, (void)values;
-    Instance *instance = (Instance *)component;
-    return instance == NULL ? fmi2Error
-        : count == 0        ? fmi2OK
-                            : axcomp_say(instance, fmi2Error, "this FMU does not interpolate its inputs");
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealOutputDerivatives)(fmi2Component component,

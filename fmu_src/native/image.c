@@ -113,7 +113,8 @@ const char *axcomp_read_image(const unsigned char *data, size_t size, Lists *lis
     tables->volumetrics = (int32_t)volumetrics;
     lists->numbers = (int32_t)numbers;
     lists->identity = read_uint(data + 20, 4);
-    lists->found = read_uint(data + 72, 4);
+    lists->found = read_uint(data + 72, 2);
+    lists->real_only = read_uint(data + 74, 2) != 0;
     memcpy(lists->guid, guid, sizeof lists->guid);
     memcpy(lists->said, said, sizeof lists->said);
     return axcomp_tables_fit(tables, pool, lists->numbers) ? NULL : "its tables contradict themselves";

@@ -7,6 +7,7 @@
 #ifndef AXCOMP_IMAGE_H
 #define AXCOMP_IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -26,6 +27,7 @@ typedef struct Lists {
     int32_t numbers;        /* in the pool */
     uint32_t identity;      /* equal for equal tables */
     char guid[GUID_LENGTH]; /* of the modelDescription.xml that belongs to them */
+    bool real_only;         /* it calls Booleans and Integers Real */
 #if !defined(AXCOMP_EMBEDDED)
     uint32_t found;         /* errors in the lists these were made from: `reload` refuses them then */
     char said[SAID_LENGTH]; /* the first of them */

@@ -6,52 +6,9 @@
 
 #include "places.h"
 
-#if !defined(AXCOMP_EMBEDDED)
-#include <stdarg.h>
-#include <stdio.h>
-#endif
-
-enum { MESSAGE_LENGTH = 1024 };
-
 static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
-
-#if defined(AXCOMP_EMBEDDED)
-/* A real-time system has no log. */
-fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
-{
-    (void)instance, (void)format;
-    return status;
-}
-#else
-fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
-{
-    int category = status == fmi2OK ? CATEGORY_ALL : status == fmi2Warning ? CATEGORY_WARNING : CATEGORY_ERROR;
-    bool wanted = instance->logging && (instance->categories >> category & 1u) != 0;
-    if (instance->callbacks.logger == NULL || (!wanted && category != CATEGORY_ERROR)) {
-        return status;
-    }
-    char message[MESSAGE_LENGTH] = "";
-    char doubled[2 * MESSAGE_LENGTH];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    /* The host takes the message for a format. */
-    size_t length = 0;
-    for (const char *from = message; *from != 0; from++) {
-        if (*from == '%') {
-            doubled[length++] = '%';
-        }
-        doubled[length++] = *from;
-    }
-    doubled[length] = 0;
-    instance->callbacks.logger(instance->callbacks.componentEnvironment, instance->name, status,
-                               axcomp_log_categories[category], doubled);
-    return status;
-}
-#endif
 
 bool axcomp_cycle_time_fits(double cycle_time)
 {
@@ -73,7 +30,14 @@ void axcomp_place_arrays(Instance *instance)
     axcomp_place_state(&instance->memory.state, block, shape);
     axcomp_place_state(&instance->preview, block + state, shape);
     axcomp_place_inputs(&instance->memory.inputs, block + 2u * state, shape);
-    axcomp_place_outputs(&instance->memory.outputs, block + 2u * state + inputs, shape);
+    axcomp_place_inputs(&instance->memory.slopes, block + 2u * state + inputs, shape);
+    axcomp_place_inputs(&instance->begin, block + 2u * state + 2u * inputs, shape);
+    axcomp_place_outputs(&instance->memory.outputs, block + 2u * state + 3u * inputs, shape);
+}
+
+size_t axcomp_block_size(const Shape *shape)
+{
+    return 2u * axcomp_state_size(shape) + 3u * axcomp_inputs_size(shape) + axcomp_outputs_size(shape);
 }
 
 void axcomp_begin_again(Instance *instance)
@@ -81,41 +45,15 @@ void axcomp_begin_again(Instance *instance)
     Memory *memory = &instance->memory;
     const Shape *shape = &instance->shape;
     memset(memory, 0, sizeof *memory);
-    memset(instance->block, 0,
-           2u * axcomp_state_size(shape) + axcomp_inputs_size(shape) + axcomp_outputs_size(shape));
+    memset(instance->block, 0, axcomp_block_size(shape));
     axcomp_place_arrays(instance);
     memset(instance->told, 0, sizeof instance->told);
     memory->phase = INSTANTIATED;
     memory->controls.cycle_time = instance->first->tables.cycle_time;
+    memory->stop_time = HUGE_VAL;
     axcomp_use_lists(instance, instance->first);
-#if !defined(AXCOMP_EMBEDDED)
-    instance->waiting = NULL;
-#endif
+    axcomp_wait_for(instance, NULL);
 }
-
-#if defined(AXCOMP_EMBEDDED)
-/* There are no other lists than those in the sources: an update is refused. */
-void axcomp_watch_reload(Instance *instance, bool path_set)
-{
-    (void)path_set;
-    instance->memory.refused = instance->memory.controls.reload && !instance->memory.reload_seen;
-}
-
-void axcomp_take_update(Instance *instance)
-{
-    Memory *memory = &instance->memory;
-    for (int32_t i = 0; memory->refused && i < instance->tables.axis_count; i++) {
-        memory->state.axis[i].error = memory->outputs.axis[i].error = ERROR_UPDATE;
-    }
-    memory->refused = false;
-    memory->reload_seen = memory->controls.reload;
-}
-
-const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
-{
-    return instance->first->identity == identity ? instance->first : NULL;
-}
-#endif
 
 void axcomp_preview_outputs(Instance *instance)
 {
@@ -141,17 +79,63 @@ static void give_notices(Instance *instance)
     }
 }
 
-fmi2Status axcomp_advance(Instance *instance, double time)
+/* Put the values that inputs with a slope have some time after they were set (`begin`) into a record of inputs. */
+static void incline_record(const Place places[], void *inputs, const void *begin, const void *slopes, double since)
+{
+    for (int i = 0; i < PLACES; i++) {
+        if (places[i].type == 'r' && places[i].causality == 'i') {
+            double slope = *(const double *)((const char *)slopes + places[i].offset);
+            if (slope != 0.0) {
+                double value = *(const double *)((const char *)begin + places[i].offset);
+                *(double *)((char *)inputs + places[i].offset) = value + slope * since;
+            }
+        }
+    }
+}
+
+/* The same for all inputs; `since`: s after the begin of the step. */
+static void incline(Instance *instance, double since)
 {
     Memory *memory = &instance->memory;
-    double due = ceil((time - memory->start_time) / instance->tables.cycle_time - AXCOMP_ON_INSTANT);
+    const Tables *tables = &instance->tables;
+    since = since > 0.0 ? since : 0.0;
+    memory->inputs.tool_length = instance->begin.tool_length + memory->slopes.tool_length * since;
+    for (int i = 0; i < tables->axis_count; i++) {
+        incline_record(axcomp_axis_places, &memory->inputs.axis[i], &instance->begin.axis[i], &memory->slopes.axis[i],
+                       since);
+    }
+    for (int k = 0; k < tables->volumetrics; k++) {
+        incline_record(axcomp_volumetric_places, &memory->inputs.volumetric[k], &instance->begin.volumetric[k],
+                       &memory->slopes.volumetric[k], since);
+    }
+}
+
+fmi2Status axcomp_advance(Instance *instance, double begin, double end)
+{
+    Memory *memory = &instance->memory;
+    double cycle_time = instance->tables.cycle_time;
+    double due = ceil((end - memory->start_time) / cycle_time - AXCOMP_ON_INSTANT);
     if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
         return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
     }
     axcomp_take_update(instance);
+    bool sloped = memory->sloped;
+    if (sloped) {
+        axcomp_copy_inputs(&instance->begin, &memory->inputs, &instance->shape);
+    }
     for (; memory->cycles < due; memory->cycles += 1.0) {
+        if (sloped) {
+            incline(instance, memory->start_time + memory->cycles * cycle_time - begin);
+        }
         axcomp_cycle(&instance->tables, instance->lists->pool, &memory->state, &memory->inputs, &memory->outputs);
     }
+    if (sloped) {
+        incline(instance, end - begin);
+        memory->slopes.tool_length = 0.0;
+        memset(memory->slopes.axis, 0, axcomp_inputs_size(&instance->shape));
+        memory->sloped = false;
+    }
+    memory->time = end;
     give_notices(instance);
     return fmi2OK;
 }

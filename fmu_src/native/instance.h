@@ -28,12 +28,16 @@ typedef struct {
     char update_path[PATH_LENGTH];  /* last of all: a saved state has only as much of it as is used */
 } Controls;
 
-/* Everything that changes, besides the arrays of the three records. */
+/* Everything that changes, besides the arrays of the records. */
 typedef struct {
     State state;
     Inputs inputs;
     Outputs outputs;
+    Inputs slopes;      /* derivatives of the Real inputs, where these are in `inputs`; for the next step */
+    bool sloped;        /* one of them has been set */
     double start_time;  /* s */
+    double stop_time;   /* s; infinite: none is known */
+    double time;        /* where the last step ended, s */
     double cycles;      /* run so far */
     Phase phase;
     bool reload_seen;   /* `reload` was on in the last step: there is no edge until it has been off */
@@ -48,9 +52,10 @@ typedef struct {
     Tables tables;        /* theirs, with the cycle time that the host has set */
     Shape shape;          /* of the arrays */
     Memory memory;
+    Inputs begin;         /* those at the begin of a step whose inputs have a slope */
     State preview;        /* of the cycle that is computed during initialization, without being run */
     uint32_t told[KINDS + 1]; /* bit i: that a kind of axis i was used beyond its table; the last: a switch was none */
-    void *block;          /* the arrays of `memory` and `preview` */
+    void *block;          /* the arrays of `memory`, `begin` and `preview` */
 #if !defined(AXCOMP_EMBEDDED)
     Lists *own;           /* all that were read by `reload`: a saved state may come back to them */
     Lists *waiting;       /* of these: for the next step; NULL: none */
@@ -67,14 +72,18 @@ extern const char *const axcomp_log_categories[CATEGORIES];
 /* Tell the host; errors always, the rest if it wants to know. Returns `status`. */
 fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...);
 
+/* What the host wants to be told from now on; `categories`: bit k: category k of axcomp_log_categories. */
+void axcomp_log_as_wanted(Instance *instance, bool on, unsigned categories);
+
 /* Make an instance that has neither tables nor arrays yet; NULL: there is no memory. */
 Instance *axcomp_new_instance(const char *name);
 
 /* Give the instance arrays as large as its shape. Returns whether there is memory. */
 bool axcomp_give_arrays(Instance *instance);
 
-/* Let the records of the instance point into its block. */
+/* Let the records of the instance point into its block, and the bytes of this. */
 void axcomp_place_arrays(Instance *instance);
+size_t axcomp_block_size(const Shape *shape);
 
 /* Free everything. */
 void axcomp_free_instance(Instance *instance);
@@ -93,6 +102,13 @@ void axcomp_watch_reload(Instance *instance, bool path_set);
 /* Take the lists that wait, or tell by the outputs that they were refused. */
 void axcomp_take_update(Instance *instance);
 
+/* Lists that the next step takes, NULL: none. */
+const Lists *axcomp_waiting_lists(const Instance *instance);
+void axcomp_wait_for(Instance *instance, const Lists *lists);
+
+/* The tables that belong to this FMU; NULL after telling the host why there are none. */
+const Lists *axcomp_own_lists(Instance *instance, fmi2String location);
+
 /* The instance's lists with an identity, NULL if it has none. */
 const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
 
@@ -102,8 +118,8 @@ void axcomp_use_lists(Instance *instance, const Lists *lists);
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);
 
-/* Run the cycles whose instants lie before `time`, s. */
-fmi2Status axcomp_advance(Instance *instance, double time);
+/* Make a step from `begin` to `end`, s: run the cycles whose instants lie before its end and have not been run. */
+fmi2Status axcomp_advance(Instance *instance, double begin, double end);
 
 /* Whether the parameter cycle_time is possible. */
 bool axcomp_cycle_time_fits(double cycle_time);
@@ -113,12 +129,6 @@ Instance *axcomp_allowed(fmi2Component component, unsigned phases, const char *f
 
 /* The instance, if a pointer that a call needs is there; else NULL, after telling the host. */
 Instance *axcomp_given(Instance *instance, const void *pointer, const char *function);
-
-#if !defined(AXCOMP_EMBEDDED)
-/* Read the tables of an image. Returns lists that hang nowhere yet, or NULL after telling the host with `status` what is
- * wrong; `call`: who wants them. */
-Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path);
-#endif
 
 #ifdef __cplusplus
 }

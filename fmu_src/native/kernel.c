@@ -184,6 +184,8 @@ static bool advance_switch(const SwitchTable *table, SwitchState *state, bool re
         }
     } else if (step > 0) {
         step -= 1;
+    } else {
+        /* nothing */
     }
     if (step != state->step) {
         double weight = ramp(step, table->cycles);
@@ -299,6 +301,8 @@ static double backlash_value(const BacklashTable *table, BacklashState *state, i
         }
     } else if (state->step > 0) {
         state->step -= 1;
+    } else {
+        /* nothing */
     }
     return backlash_at(table, state);
 }
@@ -334,6 +338,8 @@ static int32_t search_interval(const double *pool, int32_t first, int32_t points
         }
     } else if (x >= pool[first + last - 1]) {
         return last - 1;
+    } else {
+        /* nothing */
     }
     double intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end;
     int32_t low = int_min(int_max(last + (int32_t)intervals, 0), end - 1);
@@ -981,6 +987,8 @@ static double leadscrew_value(const double *pool, const LeadscrewTable *table, L
         }
     } else if (state->reversal_step < table->reversal_cycles) {
         state->reversal_step += 1;
+    } else {
+        /* nothing */
     }
 
     return leadscrew_at(pool, table, state, position);
@@ -999,6 +1007,8 @@ static void adopt_leadscrew(const LeadscrewTable *before, const LeadscrewTable *
         state->backward = motion->direction < 0;
     } else if (before->without_other != after->without_other) {
         state->counted = leadscrew_input(after, motion->setpoint, added);
+    } else {
+        /* nothing */
     }
     state->reversal_step = mapped_step(state->reversal_step, before->reversal_cycles, after->reversal_cycles);
 }
@@ -1136,11 +1146,11 @@ static bool temperature_fits(const TemperatureTable *table)
 
 /* Return what a kind adds to the setpoint or the current of an axis at full weight.
  *
- * `added`: to the setpoint before the leadscrew.
+ * `own`: the motion of the axis; `added`: to its setpoint before the leadscrew.
  */
 static double compensation_value(int32_t kind, const double *pool, const CompensationTables *tables,
-        CompensationStates *states, const CompensationInputs *given, const Motion *motion, int32_t axis, double added,
-        double cycle_time)
+        CompensationStates *states, const CompensationInputs *given, const Motion *motion, const AxisMotion *own,
+        double added, double cycle_time)
 {
     if (kind == CROSS) {
         return cross_value(pool, &tables->cross, &states->cross, motion);
@@ -1152,17 +1162,16 @@ static double compensation_value(int32_t kind, const double *pool, const Compens
         return crosstalk_value(pool, &tables->crosstalk, &states->crosstalk, motion);
     }
     if (kind == TEMPERATURE) {
-        return temperature_value(&tables->temperature, &states->temperature, motion->axis[axis].setpoint);
+        return temperature_value(&tables->temperature, &states->temperature, own->setpoint);
     }
     if (kind == LEADSCREW) {
-        double position = leadscrew_input(&tables->leadscrew, motion->axis[axis].setpoint, added);
+        double position = leadscrew_input(&tables->leadscrew, own->setpoint, added);
         return leadscrew_value(pool, &tables->leadscrew, &states->leadscrew, position);
     }
     if (kind == BACKLASH) {
-        return backlash_value(&tables->backlash, &states->backlash, motion->axis[axis].direction);
+        return backlash_value(&tables->backlash, &states->backlash, own->direction);
     }
-    return friction_current(pool, &tables->friction, &states->friction, &given->friction, &motion->axis[axis],
-            cycle_time);
+    return friction_current(pool, &tables->friction, &states->friction, &given->friction, own, cycle_time);
 }
 
 /* Return what a kind added last at full weight, as its table says it; nothing goes on. A current counts as 0. */
@@ -1233,6 +1242,8 @@ static void adopt_compensation(int32_t kind, const CompensationTables *before, c
         adopt_backlash(&before->backlash, &after->backlash, &states->backlash);
     } else if (kind == FRICTION) {
         adopt_friction(&before->friction, &after->friction, &states->friction);
+    } else {
+        /* nothing */
     }
 }
 
@@ -1249,6 +1260,8 @@ static void move_compensation(int32_t kind, CompensationTables *tables, int32_t 
         move_leadscrew(&tables->leadscrew, by);
     } else if (kind == FRICTION) {
         move_friction(&tables->friction, by);
+    } else {
+        /* nothing */
     }
 }
 
@@ -1387,6 +1400,8 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
             }
         } else if (!axis->started) {
             state->wanted = given->wanted[kind];
+        } else {
+            /* nothing */
         }
         if (!axis->held) {
             out->active[kind] = state->step > 0;
@@ -2121,6 +2136,8 @@ static double factor_of(const VolumetricInputs *given, int32_t letter)
         factor = 1.0 - given->reduction_y;
     } else if (letter == LINEAR - 1) {
         factor = 1.0 - given->reduction_z;
+    } else {
+        /* nothing */
     }
     if (factor >= 0.0) {
         return double_min(factor, 1.0);
@@ -2296,6 +2313,8 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         set_error(table, state, ERROR_PROGRAM_END);
     } else if (table->manual && volumetric->command && !ready) {
         take_command(volumetric, given, false);
+    } else {
+        /* nothing */
     }
 
     if (volumetric->on && !(volumetric->command && ready)) {
@@ -2307,6 +2326,8 @@ static void switch_volumetric(const VolumetricTable *table, VolumetricState *vol
         }
     } else if (!volumetric->on && volumetric->command && ready && can_turn_round(volumetric)) {
         switch_on(table, volumetric, state);
+    } else {
+        /* nothing */
     }
 }
 
@@ -2322,6 +2343,8 @@ static void adopt_volumetric(const VolumetricTable *before, const VolumetricTabl
         for (int32_t d = 0; d < LINEAR; d++) {
             volumetric->wanted_factor[d] = 1.0;
         }
+    } else {
+        /* nothing */
     }
     for (int32_t b = 0; b < ERRORS; b++) {
         volumetric->section[b] = 0;
@@ -2378,6 +2401,8 @@ static void advance_filters(const VolumetricTable *table, VolumetricState *volum
             volumetric->waiting[d] = false;
         } else if (volumetric->shift[d] != 0.0 && volumetric->release[d] == 0.0 && !volumetric->waiting[d]) {
             take_shift_back(volumetric, d);
+        } else {
+            /* nothing */
         }
     }
     double share = share_of_cycle(table, volumetric);
@@ -2587,9 +2612,9 @@ static void report_tool_length(const Tables *tables, const Inputs *inputs, Outpu
  */
 
 /* Take an axis' inputs if they are finite; else the last good ones stay, and the axis is held for this cycle. */
-static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, const Inputs *inputs, int32_t i)
+static void accept(double modulo_range, AxisState *axis, AxisMotion *motion, const AxisInputs *given,
+        bool derive_motion, double cycle_time)
 {
-    const AxisInputs *given = &inputs->axis[i];
     axis->held = !(-LARGEST < given->setpoint && given->setpoint < LARGEST
             && -LARGEST < given->velocity && given->velocity < LARGEST
             && -LARGEST < given->acceleration && given->acceleration < LARGEST
@@ -2601,25 +2626,24 @@ static void accept(const Tables *tables, AxisState *axis, AxisMotion *motion, co
         }
         double velocity = given->velocity;
         double acceleration = given->acceleration;
-        if (inputs->derive_motion) {
-            double way = nearest(given->setpoint - motion->setpoint, tables->axis[i].modulo_range);
-            velocity = way / tables->cycle_time;
-            acceleration = (velocity - motion->velocity) / tables->cycle_time;
+        if (derive_motion) {
+            double way = nearest(given->setpoint - motion->setpoint, modulo_range);
+            velocity = way / cycle_time;
+            acceleration = (velocity - motion->velocity) / cycle_time;
         }
-        move_axis(motion, given->setpoint, velocity, tables->cycle_time, tables->axis[i].modulo_range);
+        move_axis(motion, given->setpoint, velocity, cycle_time, modulo_range);
         motion->acceleration = acceleration;
     }
 }
 
-/* Return what a kind adds to axis i in this cycle, after `correction`.
+/* Return what a kind adds to an axis in this cycle, after `correction`.
  *
  * What NO_MOVE absorbs of it goes into the shift. Without a table it adds what is left of the one it had.
  */
-static double correct_by(int32_t kind, const Tables *tables, const double *pool, State *state, const AxisInputs *given,
-        AxisOutputs *out, int32_t i, double correction)
+static double correct_by(int32_t kind, const AxisTable *table, const double *pool, AxisState *axis,
+        const Motion *motions, const AxisMotion *motion, const AxisInputs *given, AxisOutputs *out, double correction,
+        double cycle_time)
 {
-    const AxisTable *table = &tables->axis[i];
-    AxisState *axis = &state->axis[i];
     const SwitchTable *switching = &table->switching[kind];
     SwitchState *own = &axis->switching[kind];
     double value = 0.0;
@@ -2628,14 +2652,14 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
     }
     if (switching->configured) {
         if (has_inputs(kind)) {
-            double setpoint = state->motion.axis[i].setpoint;
-            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation, setpoint);
+            double lost = renew(kind, &table->compensation, &axis->compensation, &given->compensation,
+                    motion->setpoint);
             if (axis->started) {
                 blend_in(switching, own, own->weight * lost);
             }
         }
-        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation,
-                &state->motion, i, axis->added, tables->cycle_time);
+        value = compensation_value(kind, pool, &table->compensation, &axis->compensation, &given->compensation, motions,
+                motion, axis->added, cycle_time);
     }
     double contribution = contribution_of(switching, own, value);
     if (!axis->settled && kind < FRICTION) {
@@ -2645,13 +2669,10 @@ static double correct_by(int32_t kind, const Tables *tables, const double *pool,
     return contribution;
 }
 
-/* Correct one axis. */
-static void correct_axis(const Tables *tables, const double *pool, State *state, const AxisInputs *given,
-        AxisOutputs *out, int32_t i)
+/* Correct one axis, whose motion is among `motions`. */
+static void correct_axis(const AxisTable *table, const double *pool, AxisState *axis, const Motion *motions,
+        const AxisMotion *motion, const AxisInputs *given, AxisOutputs *out, double cycle_time)
 {
-    const AxisTable *table = &tables->axis[i];
-    AxisState *axis = &state->axis[i];
-    const AxisMotion *motion = &state->motion.axis[i];
     if (axis->shift.pending) {
         release_shift(table->shift_cycles, &axis->shift, motion->moving);
     }
@@ -2659,7 +2680,7 @@ static void correct_axis(const Tables *tables, const double *pool, State *state,
     double correction = 0.0;
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
         int32_t kind = table->kind[k];
-        double contribution = correct_by(kind, tables, pool, state, given, out, i, correction);
+        double contribution = correct_by(kind, table, pool, axis, motions, motion, given, out, correction, cycle_time);
         if (kind < FRICTION) {
             correction += contribution;
         }
@@ -2679,9 +2700,12 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
 {
     bool references_changed = false;
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        accept(tables, &state->axis[i], &state->motion.axis[i], inputs, i);
-        if (inputs->axis[i].unreferenced != state->axis[i].unreferenced) {
-            state->axis[i].unreferenced = inputs->axis[i].unreferenced;
+        AxisState *own = &state->axis[i];
+        const AxisInputs *given = &inputs->axis[i];
+        accept(tables->axis[i].modulo_range, own, &state->motion.axis[i], given, inputs->derive_motion,
+                tables->cycle_time);
+        if (given->unreferenced != own->unreferenced) {
+            own->unreferenced = given->unreferenced;
             references_changed = true;
         }
     }
@@ -2689,18 +2713,20 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
         compensate_volume(tables, pool, state, inputs, outputs);
     }
     for (int32_t i = 0; i < tables->axis_count; i++) {
+        const AxisTable *table = &tables->axis[i];
         AxisState *axis = &state->axis[i];
+        AxisOutputs *out = &outputs->axis[i];
         if (inputs->reset) {
             axis->error = 0;
         }
-        bool moving = state->motion.axis[i].moving;
-        activate_if_stirred(&tables->axis[i], axis, inputs, &inputs->axis[i], &outputs->axis[i], moving,
-                references_changed);
+        const AxisInputs *given = &inputs->axis[i];
+        const AxisMotion *motion = &state->motion.axis[i];
+        activate_if_stirred(table, axis, inputs, given, out, motion->moving, references_changed);
         if (axis->held) {
-            outputs->axis[i].error = ERROR_INPUT;
+            out->error = ERROR_INPUT;
         } else {
-            correct_axis(tables, pool, state, &inputs->axis[i], &outputs->axis[i], i);
-            outputs->axis[i].error = axis->error;
+            correct_axis(table, pool, axis, &state->motion, motion, given, out, tables->cycle_time);
+            out->error = axis->error;
         }
     }
     if (tables->volumetrics > 0) {

@@ -529,7 +529,7 @@ typedef struct {
     VolumetricTable *volumetric;
 } Tables;
 
-/* Everything that is remembered from cycle to cycle; it holds no references, a copy is a snapshot. */
+/* Everything that is remembered from cycle to cycle; a copy with its lists is a snapshot. */
 typedef struct {
     Motion motion;
     AxisState *axis;

@@ -1,4 +1,4 @@
-/* Generated from axcomp/interface/variables.py by `python -m axcomp.native`; do not edit. */
+/* Generated from axcomp/interface/declarations.py by `python -m axcomp.native`; do not edit. */
 #include "places.h"
 
 #include <stddef.h>

@@ -1,10 +1,11 @@
 /* New lists while the machine runs: read when the host asks for them, taken by the next step. */
-#include "instance.h"
-
 #include <stdlib.h>
 #include <string.h>
 
-Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path)
+#include "instance.h"
+#include "lists.h"
+
+static Lists *read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path)
 {
     const char *complaint = "there is no memory for it";
     Lists *lists = (Lists *)calloc(1, sizeof *lists);
@@ -156,7 +157,7 @@ void axcomp_watch_reload(Instance *instance, bool path_set)
     }
     char path[PATH_LENGTH];
     axcomp_path_of(memory->controls.update_path, NULL, path);
-    Lists *lists = axcomp_read_lists(instance, fmi2Warning, "reload", path[0] != 0 ? path : instance->own_path);
+    Lists *lists = read_lists(instance, fmi2Warning, "reload", path[0] != 0 ? path : instance->own_path);
     if (lists != NULL && !fit_update(instance, lists)) {
         axcomp_free_lists(lists);
         lists = NULL;
@@ -202,4 +203,27 @@ void axcomp_take_update(Instance *instance)
     instance->waiting = NULL;
     memory->refused = false;
     memory->reload_seen = memory->controls.reload;
+}
+
+const Lists *axcomp_waiting_lists(const Instance *instance)
+{
+    return instance->waiting;
+}
+
+void axcomp_wait_for(Instance *instance, const Lists *lists)
+{
+    instance->waiting = lists != NULL ? own_lists_with(instance, lists->identity) : NULL;
+}
+
+const Lists *axcomp_own_lists(Instance *instance, fmi2String location)
+{
+    static const char FILE_NAME[] = "tables.bin";
+    int known = location != NULL && location[0] != 0 ? axcomp_path_of(location, FILE_NAME, instance->own_path)
+                                                     : axcomp_path_beside_library(FILE_NAME, instance->own_path);
+    if (!known) {
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no resource location, or it is too long");
+        return NULL;
+    }
+    Lists *lists = read_lists(instance, fmi2Error, "fmi2Instantiate", instance->own_path);
+    return lists != NULL ? axcomp_share_lists(lists) : NULL;
 }

@@ -4,17 +4,23 @@
 #endif
 #include "resource.h"
 
-#include "config.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#if !defined(AXCOMP_DRIVES)
+#if defined(_WIN32)
+#define AXCOMP_DRIVES 1
+#else
+#define AXCOMP_DRIVES 0
+#endif
+#endif
 
 #if defined(_WIN32)
 #include <wchar.h>
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
-#elif !defined(AXCOMP_EMBEDDED)
+#else
 #include <dlfcn.h>
 #endif
 
@@ -32,32 +38,49 @@ static int digit_of(char c)
     return -1;
 }
 
-static int is_drive(const char *text)
+/* Whether a text begins with a word, which is in small letters, in letters of either case. */
+static int begins_with(const char *text, const char *word)
 {
-    return ((text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z')) && text[1] == ':';
+    while (*word != 0 && (*text >= 'A' && *text <= 'Z' ? *text - 'A' + 'a' : *text) == *word) {
+        text++;
+        word++;
+    }
+    return *word == 0;
 }
 
 /* Skip the scheme and the authority of a file URI; a plain path is returned as it is. */
 static const char *path_in_uri(const char *location, int *is_uri)
 {
-    *is_uri = strncmp(location, "file:", 5) == 0;
+    *is_uri = begins_with(location, "file:");
     if (!*is_uri) {
         return location;
     }
     location += 5;
     if (strncmp(location, "//", 2) == 0) {
         location += 2;
-        if (strncmp(location, "localhost/", 10) == 0) {
+        if (begins_with(location, "localhost/")) {
             location += 9;
-        } else if (location[0] != '/' && !is_drive(location)) {
-            return location - 2; /* //server/share/... */
+        } else if (location[0] != '/') {
+            return location - 2; /* //server/share/..., or a drive */
         }
     }
-    while (location[0] == '/' && location[1] == '/') {
+    while (strncmp(location, "///", 3) == 0) {
         location++;
     }
-    return location[0] == '/' && is_drive(location + 1) ? location + 1 : location;
+    return location;
 }
+
+#if AXCOMP_DRIVES
+/* Take the slashes away before a drive, which URIs write as /C:/ or /C|/. */
+static void uncover_drive(char *path)
+{
+    const char *drive = path + strspn(path, "/");
+    if (((*drive >= 'a' && *drive <= 'z') || (*drive >= 'A' && *drive <= 'Z')) && (drive[1] == ':' || drive[1] == '|')) {
+        memmove(path, drive, strlen(drive) + 1);
+        path[1] = ':';
+    }
+}
+#endif
 
 int axcomp_path_of(const char *location, const char *file, char *path)
 {
@@ -78,6 +101,12 @@ int axcomp_path_of(const char *location, const char *file, char *path)
         }
     }
     path[length] = 0;
+#if AXCOMP_DRIVES
+    if (is_uri) {
+        uncover_drive(path);
+        length = strlen(path);
+    }
+#endif
     if (file != NULL) {
         int needs_slash = length > 0 && path[length - 1] != '/' && path[length - 1] != '\\';
         if (length + (size_t)needs_slash + strlen(file) + 1 > PATH_LENGTH) {
@@ -91,14 +120,6 @@ int axcomp_path_of(const char *location, const char *file, char *path)
     return 1;
 }
 
-#if defined(AXCOMP_EMBEDDED)
-int axcomp_path_beside_library(const char *file, char *path)
-{
-    (void)file;
-    path[0] = 0;
-    return 0;
-}
-#else
 /* Put the path of this library into `path`; 0 if that does not work. */
 static int path_of_library(char *path)
 {
@@ -134,7 +155,6 @@ int axcomp_path_beside_library(const char *file, char *path)
     memcpy(path + length + sizeof RESOURCES - 1, file, strlen(file) + 1);
     return 1;
 }
-#endif
 
 static FILE *open_file(const char *path)
 {

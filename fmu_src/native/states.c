@@ -24,16 +24,6 @@ typedef struct {
 
 enum { CHECKED = offsetof(Saved, layout), PATH = offsetof(Saved, memory) + offsetof(Memory, controls.update_path) };
 
-static const Lists *waiting_lists(const Instance *instance)
-{
-#if defined(AXCOMP_EMBEDDED)
-    (void)instance;
-    return NULL;
-#else
-    return instance->waiting;
-#endif
-}
-
 /* Where the arrays begin in a state whose path has so many bytes with its end. */
 static size_t arrays_at(size_t path)
 {
@@ -43,7 +33,7 @@ static size_t arrays_at(size_t path)
 
 static size_t size_of(size_t path, const Shape *shape)
 {
-    return arrays_at(path) + axcomp_state_size(shape) + axcomp_inputs_size(shape) + axcomp_outputs_size(shape);
+    return arrays_at(path) + axcomp_state_size(shape) + 2u * axcomp_inputs_size(shape) + axcomp_outputs_size(shape);
 }
 
 /* Bytes of the path in a state of so many bytes, with its end; 0: it has none. */
@@ -58,11 +48,13 @@ static size_t path_size(const char *state, size_t size)
 }
 
 /* Let records point to the arrays of a state. */
-static void place(char *arrays, const Shape *shape, State *state, Inputs *inputs, Outputs *outputs)
+static void place(char *arrays, const Shape *shape, Memory *memory)
 {
-    axcomp_place_state(state, arrays, shape);
-    axcomp_place_inputs(inputs, arrays + axcomp_state_size(shape), shape);
-    axcomp_place_outputs(outputs, arrays + axcomp_state_size(shape) + axcomp_inputs_size(shape), shape);
+    size_t state = axcomp_state_size(shape), inputs = axcomp_inputs_size(shape);
+    axcomp_place_state(&memory->state, arrays, shape);
+    axcomp_place_inputs(&memory->inputs, arrays + state, shape);
+    axcomp_place_inputs(&memory->slopes, arrays + state + inputs, shape);
+    axcomp_place_outputs(&memory->outputs, arrays + state + 2u * inputs, shape);
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2FMUstate *state)
@@ -72,7 +64,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
         return fmi2Error;
     }
     const Memory *memory = &instance->memory;
-    const Lists *waiting = waiting_lists(instance);
+    const Lists *waiting = axcomp_waiting_lists(instance);
     Shape shape;
     axcomp_shape_of(&instance->tables, &shape);
     size_t path = strlen(memory->controls.update_path) + 1u;
@@ -98,9 +90,10 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     saved->check = 0;
     memcpy((char *)saved + offsetof(Saved, memory), memory, PATH - offsetof(Saved, memory) + path);
     Memory *to = &saved->memory;
-    place((char *)saved + arrays_at(path), &shape, &to->state, &to->inputs, &to->outputs);
+    place((char *)saved + arrays_at(path), &shape, to);
     axcomp_copy_state(&to->state, &memory->state, &shape);
     axcomp_copy_inputs(&to->inputs, &memory->inputs, &shape);
+    axcomp_copy_inputs(&to->slopes, &memory->slopes, &shape);
     axcomp_copy_outputs(&to->outputs, &memory->outputs, &shape);
     return fmi2OK;
 }
@@ -142,11 +135,10 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     axcomp_place_arrays(instance);
     axcomp_copy_state(&memory->state, &from->state, &shape);
     axcomp_copy_inputs(&memory->inputs, &from->inputs, &shape);
+    axcomp_copy_inputs(&memory->slopes, &from->slopes, &shape);
     axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
     axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
-#if !defined(AXCOMP_EMBEDDED)
-    instance->waiting = saved->waits != 0 ? (Lists *)axcomp_lists_with(instance, saved->waiting) : NULL;
-#endif
+    axcomp_wait_for(instance, saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL);
     return fmi2OK;
 }
 
@@ -196,6 +188,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SerializeFMUstate)(fmi2Component component,
     forget(bytes, memory + offsetof(Memory, state.volumetric));
     forget(bytes, memory + offsetof(Memory, inputs.axis));
     forget(bytes, memory + offsetof(Memory, inputs.volumetric));
+    forget(bytes, memory + offsetof(Memory, slopes.axis));
+    forget(bytes, memory + offsetof(Memory, slopes.volumetric));
     forget(bytes, memory + offsetof(Memory, outputs.axis));
     forget(bytes, memory + offsetof(Memory, outputs.volumetric));
     size_t axes = (size_t)((const char *)saved->memory.state.axis - (const char *)saved);
@@ -241,7 +235,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component componen
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: %s", complaint);
     }
     Memory *memory = &saved->memory;
-    place((char *)saved + arrays_at(path), &shape, &memory->state, &memory->inputs, &memory->outputs);
+    place((char *)saved + arrays_at(path), &shape, memory);
     *state = saved;
     return fmi2OK;
 }

@@ -1,4 +1,5 @@
 /* The functions of FMI 2.0 that get and set values: a value reference says where in memory a value is. */
+#include <math.h>
 #include <string.h>
 
 #include "fmi2.h"
@@ -29,7 +30,9 @@ static void *place_of(Instance *instance, fmi2ValueReference reference, char typ
         record = (*place)->causality == 'o' ? (void *)&memory->outputs.volumetric[block - VOLUMETRIC_BLOCK]
                                             : (void *)&memory->inputs.volumetric[block - VOLUMETRIC_BLOCK];
     }
-    if (record == NULL || (*place)->type != type) {
+    char own = record != NULL ? (*place)->type : 0;
+    bool as_real = type == 'r' && instance->first->real_only && (own == 'b' || own == 'i');
+    if (own != type && !as_real) {
         axcomp_say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
         return NULL;
     }
@@ -70,6 +73,12 @@ static Instance *writable(fmi2Component component, const void *references, const
     return count == 0 ? instance : axcomp_given(axcomp_given(instance, references, "fmi2Set..."), values, "fmi2Set...");
 }
 
+/* The nearest integer; of what has none the largest, which is no value of a switch. */
+static int32_t whole(double value)
+{
+    return value > -(double)INT32_MAX && value < (double)INT32_MAX ? (int32_t)floor(value + 0.5) : INT32_MAX;
+}
+
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component component, const fmi2ValueReference references[],
                                               size_t count, fmi2Real values[])
 {
@@ -79,11 +88,13 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component component, const fmi
     }
     const Place *place;
     for (size_t i = 0; i < count; i++) {
-        const double *value = (const double *)place_of(instance, references[i], 'r', &place);
+        const void *value = place_of(instance, references[i], 'r', &place);
         if (value == NULL) {
             return fmi2Error;
         }
-        values[i] = *value;
+        values[i] = place->type == 'b' ? (double)*(const bool *)value
+            : place->type == 'i'       ? (double)*(const int32_t *)value
+                                       : *(const double *)value;
     }
     return fmi2OK;
 }
@@ -149,18 +160,69 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi
     if (instance == NULL) {
         return fmi2Error;
     }
+    fmi2Status status = fmi2OK;
+    const Place *place;
+    for (size_t i = 0; i < count && status == fmi2OK; i++) {
+        void *value = settable(instance, references[i], 'r', &place);
+        if (value == NULL) {
+            status = fmi2Error;
+        } else if (place->type == 'b') {
+            *(bool *)value = whole(values[i]) != 0 && values[i] == values[i];
+        } else if (place->type == 'i') {
+            *(int32_t *)value = whole(values[i]);
+        } else if (place->causality == 'p' && !axcomp_cycle_time_fits(values[i])) {
+            status = axcomp_say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
+        } else {
+            *(double *)value = values[i];
+        }
+    }
+    if (instance->first->real_only) {
+        axcomp_watch_reload(instance, false);
+    }
+    return status;
+}
+
+/* The slope of a Real input; the arrays of both records are alike. */
+static double *slope_of(Memory *memory, const char *input)
+{
+    if (input == (const char *)&memory->inputs.tool_length) {
+        return &memory->slopes.tool_length;
+    }
+    return (double *)(void *)((char *)memory->slopes.axis + (input - (const char *)memory->inputs.axis));
+}
+
+/* First derivatives: the inputs go on along them during the next step. Those of higher order are passed over. */
+FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component component,
+                                                              const fmi2ValueReference references[], size_t count,
+                                                              const fmi2Integer orders[], const fmi2Real values[])
+{
+    Instance *instance = writable(component, references, values, count);
+    if (count > 0) {
+        instance = axcomp_given(instance, orders, "fmi2SetRealInputDerivatives");
+    }
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    fmi2Status status = fmi2OK;
+    Memory *memory = &instance->memory;
     const Place *place;
     for (size_t i = 0; i < count; i++) {
-        double *value = (double *)settable(instance, references[i], 'r', &place);
+        const char *value = (const char *)settable(instance, references[i], 'r', &place);
         if (value == NULL) {
             return fmi2Error;
         }
-        if (place->causality == 'p' && !axcomp_cycle_time_fits(values[i])) {
-            return axcomp_say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
+        if (place->causality != 'i' || place->type != 'r' || orders[i] < 1) {
+            return axcomp_say(instance, fmi2Error, "the variable with the value reference %u has no derivative of order %d",
+                              references[i], orders[i]);
         }
-        *value = values[i];
+        if (orders[i] > 1) {
+            status = axcomp_say(instance, fmi2Warning, "derivatives of order %d are not used, only the first", orders[i]);
+        } else {
+            *slope_of(memory, value) = values[i];
+            memory->sloped = true;
+        }
     }
-    return fmi2OK;
+    return status;
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component component, const fmi2ValueReference references[],

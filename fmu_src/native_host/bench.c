@@ -31,8 +31,7 @@ typedef struct {
 
 typedef struct {
     double step;
-    Group reals, booleans, results, integers, flags;
-    fmi2Boolean given[VARIABLES];
+    Group reals, booleans, commands, results, integers, flags;
 } Plan;
 
 /* ns of this process, so that others on the machine count little; on Windows, whose clock of processes is too coarse, of
@@ -57,13 +56,13 @@ static double motion(unsigned row, unsigned k)
     return 10.0 * sin(6.283185307179586 * row / ROWS + k);
 }
 
-static int read_group(FILE *file, Group *group, fmi2Boolean *values)
+static int read_group(FILE *file, Group *group)
 {
     if (fscanf(file, "%u", &group->count) != 1 || group->count > VARIABLES) {
         return 0;
     }
     for (unsigned k = 0; k < group->count; k++) {
-        if (fscanf(file, "%u", &group->references[k]) != 1 || (values != NULL && fscanf(file, "%d", &values[k]) != 1)) {
+        if (fscanf(file, "%u", &group->references[k]) != 1) {
             return 0;
         }
     }
@@ -76,9 +75,9 @@ static int read_plan(const char *path, Plan *plan)
     if (file == NULL) {
         return 0;
     }
-    int good = fscanf(file, "%lf", &plan->step) == 1 && read_group(file, &plan->reals, NULL)
-        && read_group(file, &plan->booleans, plan->given) && read_group(file, &plan->results, NULL)
-        && read_group(file, &plan->integers, NULL) && read_group(file, &plan->flags, NULL);
+    int good = fscanf(file, "%lf", &plan->step) == 1 && read_group(file, &plan->reals)
+        && read_group(file, &plan->booleans) && read_group(file, &plan->commands) && read_group(file, &plan->results)
+        && read_group(file, &plan->integers) && read_group(file, &plan->flags);
     fclose(file);
     return good;
 }
@@ -93,7 +92,7 @@ static void on_log(fmi2ComponentEnvironment environment, fmi2String instance, fm
 static int bench_fmu(const Fmu *fmu, const char *resources, const char *guid, const Plan *plan, int batches)
 {
     static double reals[ROWS][VARIABLES], results[VARIABLES];
-    static fmi2Integer integers[VARIABLES], flags[VARIABLES];
+    static fmi2Integer integers[VARIABLES], flags[VARIABLES], nothing[VARIABLES];
     const fmi2CallbackFunctions callbacks = {on_log, calloc, free, NULL, NULL};
     fmi2Component c = fmu->Instantiate("bench", fmi2CoSimulation, guid, resources, &callbacks, fmi2False, fmi2False);
     if (c == NULL || fmu->EnterInitializationMode(c) != fmi2OK || fmu->ExitInitializationMode(c) != fmi2OK) {
@@ -110,7 +109,8 @@ static int bench_fmu(const Fmu *fmu, const char *resources, const char *guid, co
         double begin = now();
         for (int cycle = 0; cycle < CYCLES; cycle++) {
             status |= fmu->SetReal(c, plan->reals.references, plan->reals.count, reals[cycle % ROWS]);
-            status |= fmu->SetBoolean(c, plan->booleans.references, plan->booleans.count, plan->given);
+            status |= fmu->SetBoolean(c, plan->booleans.references, plan->booleans.count, nothing);
+            status |= fmu->SetInteger(c, plan->commands.references, plan->commands.count, nothing);
             status |= fmu->DoStep(c, time, plan->step, fmi2True);
             time += plan->step;
             status |= fmu->GetReal(c, plan->results.references, plan->results.count, results);

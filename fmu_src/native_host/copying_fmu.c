@@ -66,6 +66,7 @@ WITHOUT_EFFECT(fmi2ExitInitializationMode, (fmi2Component component))
     }
 
 SET(fmi2SetReal, fmi2Real)
+SET(fmi2SetInteger, fmi2Integer)
 SET(fmi2SetBoolean, fmi2Boolean)
 GET(fmi2GetReal, fmi2Real)
 GET(fmi2GetInteger, fmi2Integer)

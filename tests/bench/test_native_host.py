@@ -14,10 +14,10 @@ MACHINE = machine_of(2, 10)
 def test_the_plan_names_every_input_and_output_once() -> None:
     step, *lines = plan_of(MACHINE).splitlines()
     numbers = [[int(word) for word in line.split()] for line in lines]
-    references = [*numbers[0][1:], *numbers[1][1::2], *(n for line in numbers[2:] for n in line[1:])]
+    references = [n for line in numbers for n in line[1:]]
     wanted = [v for v in variables_of(MACHINE) if v.causality != "parameter" and v.name != "reload"]
     assert sorted(references) == sorted(v.reference for v in wanted)
-    assert (float(step), numbers[0][0], numbers[1][0]) == (0.001, len(numbers[0]) - 1, (len(numbers[1]) - 1) // 2)
+    assert (float(step), [line[0] for line in numbers]) == (0.001, [len(line) - 1 for line in numbers])
 
 
 def test_a_cycle_costs_something_in_every_way(tmp_path: Path) -> None:

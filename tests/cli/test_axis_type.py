@@ -66,7 +66,7 @@ def test_axis_lists_win_and_that_is_told(table: Path) -> None:
 def test_check_and_show_take_it(table: Path, capsys: Capture) -> None:
     assert main(["check", str(table), "--axis-type", "modulo", "--format", "json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert (found["axes"][0]["type"], [f["code"] for f in found["findings"]]) == ("rotary", [])
+    assert (found["machines"][0]["axes"][0]["type"], [f["code"] for f in found["findings"]]) == ("rotary", [])
     assert main(["show", str(table), "--axis-type", "modulo"]) == 0
     assert "°" in capsys.readouterr().out
     assert main(["show", str(table)]) == 0

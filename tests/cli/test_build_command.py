@@ -43,7 +43,8 @@ def test_without_options_both_fmus_of_the_example_are_built_here(tmp_path: Path)
 
 
 def test_options_reach_the_fmu(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    output = tmp_path / "mine.fmu"
+    output = tmp_path / "new" / "mine.fmu"
+    output.parent.mkdir()
     options = ["--machine", str(lists), "--output", str(output), "--cycle-time", "0.002", "--naming", "flat"]
     assert main(["build", *options, "--no-external-tool"]) == 0
     description = fmpy.read_model_description(output)
@@ -76,7 +77,7 @@ def test_findings_are_shown_and_stop_nothing(lists: Path, tmp_path: Path, capsys
     [
         (["--machine", "nowhere/hochlauf.lis"], "there is no axis in these lists"),
         (["--machine", "lists", "--cycle-time", "0"], "the cycle time must be above 0 s"),
-        (["--machine", "lists", "--output", "lists/hochlauf.lis/x.fmu"], "there is no folder lists/hochlauf.lis for x.fmu"),
+        (["--machine", "lists", "--output", "lists/hochlauf.lis/x.fmu"], "no folder lists/hochlauf.lis for x.fmu"),
     ],
 )
 def test_what_cannot_be_built_is_a_sentence_and_status_1(

@@ -34,7 +34,7 @@ def test_the_help_names_the_commands_that_a_missing_package_hides(
 
 
 def test_a_file_that_is_missing_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "no such program.csv"]) != 0
+    assert main(["run", "no such program.csv", "--machine", "nowhere"]) != 0
     words = capsys.readouterr().err
     assert "no such program.csv" in words
     assert "Errno" not in words

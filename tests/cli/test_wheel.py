@@ -36,6 +36,8 @@ def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("pyproject.toml", "README.md", "LICENSE", "build_fmu.py"):
         shutil.copy(ROOT / name, folder)
+    (folder / "docs").mkdir()
+    shutil.copy(ROOT / "docs" / "findings.md", folder / "docs")
     return folder
 
 
@@ -86,3 +88,10 @@ def test_without_any_compiler_an_installed_wheel_builds_an_fmu_that_gives_the_ex
     assert set(simulated) == set(expected)
     for column, values in expected.items():
         assert np.allclose(simulated[column], values, rtol=0.0, atol=1e-8), column
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_explains_findings(installed: Path, tmp_path: Path) -> None:
+    assert "## AXC-GAP" in run(installed / "axcomp", "check", "--explain", "AXC-GAP", cwd=tmp_path)
+    page = run(installed / "python", "-c", "from axcomp.lint import PAGE; print(PAGE)", cwd=tmp_path).strip()
+    assert "## AXC-GAP" in Path(page).read_text(encoding="utf-8")

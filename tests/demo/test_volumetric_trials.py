@@ -69,7 +69,7 @@ def test_the_error_of_the_tip_has_components_and_a_length(machine: Machine, tria
     cycles = len(turn.setpoints["C"].position)
     still = {axis.name: np.full(cycles, 2e-4) for axis in machine.axes}
     tip = np.tile([0.003, -0.004, 0.0], (cycles, 1))
-    found = list(outcomes(machine, [turn], [(Trace(still, still, tip), Trace(still, still, 0.1 * tip))]))
+    found = list(outcomes(machine, [turn], [(Trace(still, still, still, tip), Trace(still, still, still, 0.1 * tip))]))
     assert [result.axis for result in found] == ["TCP x", "TCP y", "TCP z", "TCP"]
     assert [result.largest[0] for result in found] == [pytest.approx(value) for value in (3.0, 4.0, 0.0, 5.0)]
     assert found[3].ratio == pytest.approx(0.1)

@@ -8,14 +8,14 @@ import numpy as np
 
 from axcomp.measurement import Positioning
 from axcomp.model import models
-from axcomp.plant import load_plant, positioning
+from axcomp.plant import MEMORYLESS, load_plant, positioning
 
 THREE_AXIS = models() / "three_axis"
 
 
 @cache
 def plant():
-    return load_plant(THREE_AXIS)
+    return load_plant(THREE_AXIS, choice=MEMORYLESS)
 
 
 def copied_lists(folder: Path, *, plane: bool = False) -> Path:

@@ -28,6 +28,6 @@ def test_the_example_of_a_kind_is_understood_and_its_options_reach_the_fit(kind)
         given = vars(parser.parse_args(line.split()[1:]))
         assert given["fit"] is fit
         taken = {item.name for item in fields(Options)} | {"axis", "name", "chain", "axes", "workpiece_axes"}
-        taken |= {"tool_position", "tool_orientation"}
-        common = {"do", "fit", "files", "into", "output", "dry_run", "plot", "format"}
+        taken |= {"tool_position", "tool_orientation", "map", "cycle_time"}
+        common = {"do", "fit", "files", "into", "output", "dry_run", "plot", "format", "measured"}
         assert set(given) - common <= taken

@@ -220,7 +220,7 @@ def test_what_cannot_be_is_refused(tmp_path):
         identify(measurement.only(np.arange(len(measurement.runs)) == 7), PLAIN, ["X0X", "Y0X", "Z0X"])
     file = tmp_path / "t.csv"
     file.write_text("x,y,z,dx,dy\n1,2,3,4,5\n")
-    with pytest.raises(MeasurementError, match=r"t.csv:1: There is no column for dz."):
+    with pytest.raises(MeasurementError, match=r"t.csv: There is no column for dz."):
         TcpDeviations.read(file)
 
 

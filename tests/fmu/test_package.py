@@ -52,8 +52,9 @@ def test_the_guid_follows_the_model_description(fmu: Path, lists: Path, tmp_path
         package_axcomp(lists, tmp_path / "flat.fmu", naming="flat").path,
         package_axcomp(lists, tmp_path / "alone.fmu", external_tool=False).path,
     ]
-    own = {"modelDescription.xml": b"", "documentation/bom.cdx.json": b""}
-    first, *rest = ({**contents(path), **own} for path in (fmu, *others))
+    names = ("modelDescription.xml", "documentation/index.html", "terminalsAndIcons/terminalsAndIcons.xml")
+    named = dict.fromkeys((*names, "documentation/bom.cdx.json"), b"")
+    first, *rest = (contents(path) | named for path in (fmu, *others))
     assert rest == [first, first]
     assert len({fmpy.read_model_description(path).guid for path in (fmu, *others)}) == 3
 

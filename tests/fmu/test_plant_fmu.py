@@ -42,12 +42,13 @@ def test_it_is_the_plant_in_every_bit(fmu: Path) -> None:
     for row in rows():
         plant.step([row[f"{a}.setpoint"] for a in AXES], [row[f"{a}.current"] for a in AXES], CYCLE)
         shown: dict[str, float] = {}
-        for axis, drive, true in zip(AXES, plant.drives, plant.true, strict=True):
+        for axis, drive, true, beyond in zip(AXES, plant.drives, plant.true, plant.beyond, strict=True):
             shown[f"{axis}.true_position"] = true
             shown[f"{axis}.measured_position"] = drive.position
             shown[f"{axis}.velocity"] = drive.velocity
             shown[f"{axis}.motor_current"] = drive.current
             shown[f"{axis}.following_error"] = drive.lag
+            shown[f"{axis}.beyond_tables"] = beyond
         expected.append(shown)
     assert in_child(run, fmu) == expected
 
@@ -133,4 +134,4 @@ def test_the_tool_tip_is_where_the_rigid_bodies_put_it(tmp_path: Path) -> None:
 
 def test_a_plant_without_rigid_bodies_has_no_tool_tip(fmu: Path) -> None:
     names = {variable.name for variable in fmpy.read_model_description(fmu).modelVariables}
-    assert len(names) == 7 * len(AXES)
+    assert len(names) == 8 * len(AXES)

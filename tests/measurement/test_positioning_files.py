@@ -105,7 +105,7 @@ def test_angles_make_a_rotary_axis(file):
         ("0,1,+,1\n\n0,1,+,2\n", "m.csv:3: Target 0 of run 1 is there already, in line 1."),
         ("target,run,deviation\n", "m.csv:1: There is no column for direction."),
         ("target,target,run\n", "m.csv:1: There are two columns for target."),
-        ("place,run\n", "m.csv:1: “place” is none of the columns target, run, direction, deviation."),
+        ("place,run\n", "m.csv:1: “place” is none of the columns target, run, direction, deviation, actual."),
         ("target [ft],run\n", "m.csv:1: “ft” is no unit of target; one of "),
         ("target [deg],run,direction,deviation [um]\n1,1,+,1\n", "m.csv: Lengths do not go with angles"),
         ("\0\1\2", "m.csv: The file is no text."),

@@ -113,7 +113,7 @@ def tip_errors(plant: Any, raw: np.ndarray, corrected: np.ndarray, tool_length: 
 
 def test_five_axis_errors_shrink_to_a_half_percent_all_over_the_work_volume() -> None:
     model = models() / "five_axis"
-    plant: Any = load_plant(model)
+    plant: Any = load_plant(model, choice="memoryless")
     places = np.random.default_rng(1).uniform([-300, -250, -400, -100, 0], [300, 250, 0, 100, 360], size=(200, 5))
     engine = Engine(model)
     given = {f"{name}.setpoint": column for name, column in zip(plant.names, places.T, strict=True)}
@@ -129,7 +129,7 @@ def test_five_axis_errors_shrink_to_a_half_percent_all_over_the_work_volume() ->
 
 def test_five_axis_expected_output_leads_the_tool_along_its_way_over_the_end_of_the_turn() -> None:
     model = models() / "five_axis"
-    plant: Any = load_plant(model)
+    plant: Any = load_plant(model, choice="memoryless")
     given, expected = read_csv(model / INPUT), read_csv(model / EXPECTED)
     raw = np.column_stack([given[f"{name}.setpoint"] for name in plant.names])[:-1]
     corrected = np.column_stack([expected[f"{name}.corrected_setpoint"] for name in plant.names])[1:]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import shutil
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -18,6 +19,7 @@ from fmu_machines import three_axes
 
 from axcomp.fmu import write_image
 from axcomp.lists import write_machine
+from axcomp.model import models
 
 COSIMULATION = 1
 NAMES = ("plain", "with blank", "ü", "+", "(a)", "[a]", "#1", "a,b", "100%", "%41", "ü + ( ) [ ] # , % ' &", "名")
@@ -61,8 +63,45 @@ def test_an_fmu_is_found_under_any_name(native_fmu: Path, tmp_path: Path, name: 
     escaped = "".join(f"%{byte:02X}" if byte != ord("/") else "/" for byte in os.fsencode(resources))
     locations = [resources.as_uri(), f"file:{quote(str(resources))}", f"file://localhost{quote(str(resources))}"]
     locations += [f"file://{escaped.lower()}", f"{resources.as_uri()}/", str(resources), f"{resources}/"]
+    locations += [f"FILE://LocalHost{quote(str(resources))}", f"file:////{quote(str(resources))}"]
     found = in_child(instantiated, folder, [location.encode() for location in locations])
     assert found == [["instance"]] * len(locations)
+
+
+PATHS = {
+    "file:///C:/a%20b": ("/C:/a b", "C:/a b"),
+    "file:/c:/a": ("/c:/a", "c:/a"),
+    "file:C:/a": ("C:/a", "C:/a"),
+    "file://C:/a": ("//C:/a", "C:/a"),
+    "file:///C%3A/a": ("/C:/a", "C:/a"),
+    "file:///C|/a": ("/C|/a", "C:/a"),
+    "FILE://LOCALHOST/C:/a": ("/C:/a", "C:/a"),
+    "file://server/share/a": ("//server/share/a", "//server/share/a"),
+    "file:////server/share": ("//server/share", "//server/share"),
+    "file://///server/share": ("//server/share", "//server/share"),
+    "file:/a%2Fb%25": ("/a/b%", "/a/b%"),
+    "C:\\a%20b": ("C:\\a%20b", "C:\\a%20b"),
+    "filed/a": ("filed/a", "filed/a"),
+    "": ("", ""),
+}
+"""Location → the path that it means where there are no drives, and where there are."""
+
+
+@pytest.mark.parametrize("drives", [0, 1])
+def test_every_form_of_an_uri_means_its_path(tmp_path: Path, drives: int) -> None:
+    if not shutil.which("gcc"):
+        pytest.skip("gcc is not installed")
+    native = models().parent / "fmu_src" / "native"
+    library = tmp_path / "resource.so"
+    command = ["gcc", "-std=c99", "-shared", "-fPIC", f"-DAXCOMP_DRIVES={drives}", str(native / "resource.c")]
+    subprocess.run([*command, "-o", str(library)], check=True)
+    path_of = ctypes.CDLL(str(library)).axcomp_path_of
+    found = {}
+    for location in PATHS:
+        path = ctypes.create_string_buffer(5000)
+        assert path_of(location.encode(), None, path) == 1
+        found[location] = path.value.decode()
+    assert found == {location: paths[drives] for location, paths in PATHS.items()}
 
 
 def test_an_uri_that_is_not_percent_encoded_is_taken_as_it_is(native_fmu: Path, tmp_path: Path) -> None:

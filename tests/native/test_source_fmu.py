@@ -5,8 +5,10 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import fmpy
 import pytest
@@ -24,6 +26,8 @@ COMPILERS = {
     "C++20": ["g++", "-std=c++20", "-x", "c++"],
     "clang": ["clang", "-std=c99", "-pedantic"],
     "clang, C++": ["clang++", "-x", "c++"],
+    "tcc": ["tcc"],
+    "zig": [sys.executable, "-m", "ziglang", "cc", "-std=c99", "-pedantic"],
 }
 
 
@@ -40,8 +44,8 @@ def library_of(folder: Path) -> Path:
 @pytest.mark.parametrize("compiler", COMPILERS)
 def test_they_compile_without_a_warning_and_need_no_file(native_fmu: Path, compiler: str, tmp_path: Path) -> None:
     command = COMPILERS[compiler]
-    if not shutil.which(command[0]):
-        pytest.skip(f"there is no {command[0]} on this machine")
+    if not shutil.which(command[0]) or ("ziglang" in command and find_spec("ziglang") is None):
+        pytest.skip(f"there is no {compiler} on this machine")
     if "-mavx2" in command and "avx2" not in Path("/proc/cpuinfo").read_text():
         pytest.skip("this machine has no AVX2")
     folder = Path(fmpy.extract(native_fmu, tmp_path))
@@ -52,7 +56,7 @@ def test_they_compile_without_a_warning_and_need_no_file(native_fmu: Path, compi
     options = ["-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o", str(library)]
     options.append("-DFMI2_OVERRIDE_FUNCTION_PREFIX")
     run = subprocess.run(
-        [command[0], *options, *command[1:], *sources.sourceFiles, "-lm"],
+        [*command, *options, *sources.sourceFiles, "-lm"],
         cwd=folder / "sources",
         capture_output=True,
         text=True,
@@ -61,6 +65,31 @@ def test_they_compile_without_a_warning_and_need_no_file(native_fmu: Path, compi
     assert run.returncode == 0, run.stderr
     engine, rows = Engine(three_axes()), trajectory(400)
     assert in_child(run_rows, native_fmu, folder, rows) == [engine.step(row) for row in rows]
+
+
+def test_musl_takes_them_too(native_fmu: Path, tmp_path: Path) -> None:
+    if not shutil.which("musl-gcc"):
+        pytest.skip("there is no musl-gcc on this machine")
+    folder = Path(fmpy.extract(native_fmu, tmp_path)) / "sources"
+    command = ["musl-gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-c", *(path.name for path in folder.glob("*.c"))]
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+
+
+def test_fmi_3s_way_of_building_names_the_same_files(native_fmu: Path, tmp_path: Path) -> None:
+    folder = Path(fmpy.extract(native_fmu, tmp_path))
+    (configuration,) = fmpy.model_description.read_build_description(str(folder))
+    (sources,) = configuration.sourceFileSets
+    (listed,) = fmpy.read_model_description(folder).buildConfigurations[0].sourceFileSets
+    assert sources.sourceFiles == listed.sourceFiles
+    assert [one.name for one in sources.preprocessorDefinitions] == ["FMI2_OVERRIDE_FUNCTION_PREFIX"]
+
+
+def test_twincat_is_told_how_the_tool_is_called_and_where_headers_are(native_fmu: Path, tmp_path: Path) -> None:
+    folder = Path(fmpy.extract(native_fmu, tmp_path))
+    (found,) = ElementTree.parse(folder / "documentation" / "CustomFMU.xml").getroot()
+    assert found.findtext("ToolName") == fmpy.read_model_description(folder).generationTool
+    assert found.findtext("AdditionalInclude") == "$(ProjectDir);$(ProjectDir)sources;"
 
 
 @pytest.mark.slow

@@ -64,7 +64,7 @@ def test_outputs_hold_0_and_the_host_lives(damage: str, tmp_path: Path) -> None:
     result = subprocess.run([sys.executable, "-c", DRIVE, str(folder)], capture_output=True, text=True, check=False)
     # The process may abort while it exits: what it has said before counts.
     lines = result.stdout.splitlines()
-    assert "outputs [0.0, 0.0, 0.0, 0.0, 0.0]" in lines, result.stderr
+    assert "outputs [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]" in lines, result.stderr
     assert lines[-1] == "done"
     told = [line for line in lines if line.startswith("log")]
     assert len(told) == 1

@@ -27,7 +27,7 @@ MODEL = models() / "three_axis"
 
 @pytest.fixture(scope="module")
 def plant() -> Plant:
-    return load_plant(MODEL)
+    return load_plant(MODEL, choice="memoryless")
 
 
 @pytest.fixture(scope="module")

@@ -11,6 +11,8 @@ from contextlib import redirect_stdout
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -127,7 +129,12 @@ def test_the_page_needs_nothing_beside_it(everything: Path) -> None:
     assert not page.handlers
     assert not {"script", "iframe", "object", "embed", "form", "base"} & set(page.tags)
     assert page.sources
-    assert all(source.startswith("data:image/png;base64,") for source in page.sources)
+    drawn = [unquote(source) for source in page.sources if source.startswith("data:image/svg+xml,")]
+    assert drawn
+    assert all("<svg" in one and not re.search(r"href='(?!#)|url\((?!#)|<script", one) for one in drawn)
+    assert all(ElementTree.fromstring(one.partition(",")[2]).get("viewBox") for one in drawn)
+    pictures = sum(source.startswith("data:image/png;base64,") for source in page.sources)
+    assert pictures + len(drawn) == len(page.sources)
     anchors = [link for link in page.links if link != "data:,"]
     assert {link.removeprefix("#") for link in anchors} <= set(page.ids)
     assert len(set(page.ids)) == len(page.ids)

@@ -171,6 +171,8 @@ def test_a_picture_has_a_line_for_each_combination_of_the_rest(tmp_path: Path) -
     sweep = run_sweep(spec, job, tmp_path / "r.csv")
     assert sweep.varied == ("scale Y.leadscrew", "input X.plane.switch")
     ax = sweep.plot("scale Y.leadscrew", "at")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("scale Y.leadscrew", "at [mm]")
+    assert sweep.table.attrs["units"]["at"] == "mm"
     assert [line.get_label() for line in ax.lines] == [f"input X.plane.switch = {on}" for on in (-1, 1)]
     for line, on in zip(ax.lines, (-1, 1), strict=True):
         chosen = sweep.table[sweep.table["input X.plane.switch"] == on]

@@ -1,6 +1,6 @@
 """Judgement: whether tables that are well-formed are right: their sign, outliers, seams, dynamics, coverage, limits.
 
-All of it works on the machine alone, with NumPy; pictures need Matplotlib.
+All of it works on the machine alone; what needs a course or a measurement needs NumPy, pictures need Matplotlib.
 """
 
 from __future__ import annotations

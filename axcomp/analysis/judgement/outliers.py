@@ -8,20 +8,20 @@ the ordinary distance from the neighbours, the median over the table (robust: ou
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import NamedTuple
+import math
+from collections.abc import Iterator, Sequence
+from statistics import median
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
-from ...engine import Array
 from ...kinds import tables_of
 from ...lists import Findings
 from ...model import Curve, Grid, Machine, Quantity
 from .judgement import JUDGED_LEAST
 from .positions import Positions
 
-Indices = npt.NDArray[np.intp]
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 SIGMAS = 6.0
 """Distance from the neighbours that makes an outlier, in standard deviations by the median."""
@@ -36,57 +36,68 @@ class Spikes(NamedTuple):
 
     Attributes
     ----------
-    distance : array
+    distance : list of float
         From the line through the neighbours on both sides, in the unit of the values, with sign.
-    score : array
+    score : list of float
         The least of the three distances, 0 where they do not agree in sign.
     ordinary : float
         Standard deviation of ``distance`` by its median, at least ``RESOLUTION``.
     """
 
-    distance: Array
-    score: Array
+    distance: list[float]
+    score: list[float]
     ordinary: float
+
+    def is_spike(self, index: int) -> bool:
+        """Tell whether a point is an outlier."""
+        return self.score[index] > SIGMAS * self.ordinary
 
     @property
     def found(self) -> npt.NDArray[np.bool_]:
-        """Return whether each point is an outlier."""
-        with np.errstate(invalid="ignore"):
-            return np.asarray(self.score > SIGMAS * self.ordinary)
+        """Whether each point is an outlier, shape (n,)."""
+        import numpy as np
+
+        return np.array([self.is_spike(index) for index in range(len(self.score))])
 
 
-def spikes(x: Array, y: Array, period: float | None = None) -> Spikes:
-    """Return how far each point x (n,), ascending, of a table with values y (n, …) is off its neighbours.
+def spikes(x: Sequence[float], y: Sequence[float], period: float | None = None) -> Spikes:
+    """Return how far each point x, ascending, of a table with values y is off its neighbours.
 
     With a ``period`` the first and the last points have neighbours on both sides, and ``x`` holds no point twice;
     without one the first two and the last two points are not judged.
     """
-    if period is not None:
-        x = np.concatenate([x[-2:] - period, x, x[:2] + period])
-        y = np.concatenate([y[-2:], y, y[:2]])
-    n = len(x)
-    distance, score = np.full(y.shape, np.nan), np.full(y.shape, np.nan)
-    at = np.arange(2, n - 2)
-    if n >= JUDGED_LEAST:
-        pairs = ((at - 1, at + 1), (at - 2, at - 1), (at + 1, at + 2))
-        lines = np.stack([y[at] - _line(x, y, a, b, at) for a, b in pairs])
-        size = np.abs(lines)
-        # All three see an outlier as it is; beside one, the lines that run through it see it and the third does not.
-        agree = (np.abs(np.sign(lines).sum(axis=0)) == len(lines)) & (size.min(axis=0) >= size.max(axis=0) / 4.0)
-        score[at] = np.where(agree, size.min(axis=0), 0.0)
-        distance[at] = lines[0]
-    known = np.abs(distance[~np.isnan(distance)])
-    ordinary = max(SIGMA_OF_MEDIAN * float(np.median(known)) if known.size else 0.0, RESOLUTION)
-    if period is not None:
-        distance, score = distance[2:-2], score[2:-2]
-    return Spikes(distance, score, ordinary)
+    return _spikes(x, [y], period)[0]
 
 
-def _line(x: Array, y: Array, a: Indices, b: Indices, at: Indices) -> Array:
-    """Return the values at the points ``at`` of the straight lines through the points ``a`` and ``b``."""
-    share = ((x[at] - x[a]) / (x[b] - x[a])).reshape(-1, *(1,) * (y.ndim - 1))
-    value: Array = y[a] + share * (y[b] - y[a])
-    return value
+def _spikes(x: Sequence[float], rows: Sequence[Sequence[float]], period: float | None = None) -> list[Spikes]:
+    """Return the same for several rows of values over the same points, which share what is ordinary."""
+    around = 0 if period is None else 2
+    places = list(x)
+    if period is not None:
+        places = [*(place - period for place in places[-2:]), *places, *(place + period for place in places[:2])]
+    n = len(places)
+    # Where between its neighbours, and how far beyond the two before or behind it, each point lies.
+    shares = [
+        ((d[2] - d[1]) / (d[3] - d[1]), (d[2] - d[0]) / (d[1] - d[0]), (d[2] - d[3]) / (d[4] - d[3]))
+        for d in (places[i - 2 : i + 3] for i in range(2, n - 2))
+        if n >= JUDGED_LEAST
+    ]
+    found = []
+    for row in rows:
+        values = [*row[len(row) - around :], *row, *row[:around]]
+        distance, score = [math.nan] * n, [math.nan] * n
+        for i, (middle, on, back) in enumerate(shares, 2):
+            a, b, y, c, d = values[i - 2 : i + 3]
+            lines = (y - b - middle * (c - b), y - a - on * (b - a), y - c - back * (d - c))
+            low, high = min(lines), max(lines)
+            # All three see an outlier as it is; beside one, the lines that run through it see it and the third not.
+            least, most = (low, high) if low > 0.0 else (-high, -low)
+            distance[i] = lines[0]
+            score[i] = least if least > 0.0 and least >= most / 4.0 else 0.0
+        found.append((distance[around : n - around], score[around : n - around]))
+    known = [abs(value) for distance, _ in found for value in distance if not math.isnan(value)]
+    ordinary = max(SIGMA_OF_MEDIAN * median(known) if known else 0.0, RESOLUTION)
+    return [Spikes(distance, score, ordinary) for distance, score in found]
 
 
 def judge_outliers(machine: Machine, positions: Positions, findings: Findings) -> None:
@@ -115,25 +126,22 @@ def _message(value: float, at: str, distance: float, ordinary: float, of: Quanti
 
 
 def _of_curve(curve: Curve) -> Iterator[tuple[int, float, float]]:
-    x, y = np.array(curve.x), np.array(curve.y)
+    x, y = curve.x, curve.y
     if curve.period is not None and curve.closed() is curve:
         # The last one repeats the first one.
         x, y = x[:-1], y[:-1]
     found = spikes(x, y, curve.period)
-    for index in np.flatnonzero(found.found).tolist():
-        yield index, float(found.distance[index]), found.ordinary
+    yield from ((i, found.distance[i], found.ordinary) for i in range(len(x)) if found.is_spike(i))
 
 
 def _of_grid(grid: Grid) -> Iterator[tuple[int, int, float, float]]:
     """Yield row and column of points that are off along both sides; near an edge only one side can tell."""
-    values = np.array(grid.values)
-    along, across = spikes(np.array(grid.y), values), spikes(np.array(grid.x), values.T)
-    found, known = np.ones(values.shape, dtype=bool), np.zeros(values.shape, dtype=bool)
-    for one, turned in ((along, False), (across, True)):
-        score, is_spike = (one.score.T, one.found.T) if turned else (one.score, one.found)
-        found &= is_spike | np.isnan(score)
-        known |= ~np.isnan(score)
-    for row, column in np.argwhere(found & known).tolist():
-        distances = [along.distance[row, column], across.distance[column, row]]
-        nearest = int(np.nanargmin(np.abs(distances)))
-        yield row, column, float(distances[nearest]), (along, across)[nearest].ordinary
+    columns = _spikes(grid.y, list(zip(*grid.values, strict=True)))
+    for row, across in enumerate(_spikes(grid.x, grid.values)):
+        for column, along in enumerate(columns):
+            sides = [
+                (spikes, at) for spikes, at in ((along, row), (across, column)) if not math.isnan(spikes.score[at])
+            ]
+            if sides and all(spikes.is_spike(at) for spikes, at in sides):
+                nearest, at = min(sides, key=lambda side: abs(side[0].distance[side[1]]))
+                yield row, column, nearest.distance[at], nearest.ordinary

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,21 +10,11 @@ import numpy as np
 
 from ...engine import TIME, Array, Engine, InputError, InputFile, read_table
 from ...interface import Variable
-from ...measurement import ANGLES, LENGTHS
+from ...measurement import columns_chosen, unit_factor
 from ...model import CYCLE_TIME, CYCLE_TIME_MAX, Machine
 
 ON_TIME = 0.25
 """Share of a cycle by which the instants of the rows may be off: stamps are rounded."""
-
-_BRACKET = re.compile(r"(.*?)\s*[\[(]([^\[\]()]*)[\])]\s*\Z")
-_UNIT = re.compile(r"\s*(\d+\.?\d*)?\s*([a-z]*)\s*(?:/\s*(s2|s|min))?\s*\Z")
-_BASES = {
-    "mm": {name: factor / LENGTHS["mm"] for name, factor in LENGTHS.items()},
-    "deg": {name: factor / ANGLES["deg"] for name, factor in ANGLES.items()},
-    "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6},
-}
-_PER = {"min": ("s", 1.0 / 60.0), "s": ("s", 1.0), "s2": ("s2", 1.0), None: ("", 1.0)}
-_PLAIN = str.maketrans({"µ": "u", "μ": "u", "²": "2", "^": None, ",": ".", "°": "deg"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,8 +73,8 @@ def read_trace(path: Path, machine: Machine, mapping: Sequence[str] = (), cycle_
     there = f"The columns are {', '.join(table.names)}."
     known = {v.name: v for v in Engine(machine).variables} | {TIME: Variable(TIME, 0, "input", 0.0, "", "s")}
     columns, used = {}, set()
-    for name, (title, unit) in _chosen(table.names, mapping, known).items():
-        factor = _factor(unit, known[name].unit)
+    for name, (title, unit) in columns_chosen(table.names, mapping, known).items():
+        factor = unit_factor(unit, known[name].unit)
         if title not in table.names:
             raise InputError(f"{path}: There is no column {title!r}. {there}")
         if factor is None:
@@ -109,41 +98,6 @@ def read_trace(path: Path, machine: Machine, mapping: Sequence[str] = (), cycle_
     cycle, kept = _clock(time, cycle_time, notes)
     start = 0.0 if time is None else float(time[0])
     return Trace(InputFile(inputs, kept), outputs, table.lines, start, cycle, tuple(notes))
-
-
-def _chosen(titles: Sequence[str], mapping: Sequence[str], known: Mapping[str, Variable]) -> dict[str, tuple[str, str]]:
-    """Return title and unit of the column of each input and output."""
-    columns = {title: (title, "") for title in titles}
-    for title in titles:
-        if title not in known and (found := _BRACKET.match(title)):
-            columns[title] = (title, found[2])
-            columns.setdefault(found[1], columns[title])
-    chosen = {name: columns[name] for name in known if name in columns}
-    for word in filter(str.strip, ",".join(mapping).split(",")):
-        name, equals, column = (part.strip() for part in word.partition("="))
-        if not equals or name not in known:
-            quantities = ", ".join(known)
-            raise InputError(f"--map: “{word}” is no NAME=COLUMN; the names are {quantities}")
-        found = _BRACKET.match(column)
-        if found and column not in columns:
-            chosen[name] = (columns.get(found[1], (found[1], ""))[0], found[2])
-        elif column:
-            chosen[name] = columns.get(column, (column, ""))
-        else:
-            chosen.pop(name, None)
-    return chosen
-
-
-def _factor(written: str, unit: str) -> float | None:
-    """Return what a unit is worth in ``unit``: mm, 0.1um, deg/min, or a bare factor; None if it is none of it."""
-    found = _UNIT.match(written.translate(_PLAIN).lower())
-    base, _, per = unit.partition("/")
-    if found is None or not (base and found[2]):
-        return float(found[1] or 1.0) if found else None if base else 1.0
-    given, share = _PER[found[3]]
-    return (
-        float(found[1] or 1.0) * _BASES[base][found[2]] * share if found[2] in _BASES[base] and given == per else None
-    )
 
 
 def _clock(time: Array | None, wanted: float | None, notes: list[str]) -> tuple[float, Array | None]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...engine import Array, Engine
 from ...lists import write_machine
-from ...plant import load_plant
+from ...plant import MEMORYLESS, load_plant
 from .machines import MACHINES
 from .trajectories import TRAJECTORIES
 
@@ -21,9 +21,12 @@ DECIMALS = 9
 
 
 def write_lists(model: Path, folder: Path) -> list[Path]:
-    """Measure the plant of a model and write its lists into a folder; nothing for a model without a plant."""
+    """Measure the plant of a model and write its lists into a folder; nothing for a model without a plant.
+
+    The plant is the memoryless one: careful measurements wait until a structure is calm, and take means of directions.
+    """
     make = MACHINES.get(model.name)
-    return [] if make is None else write_machine(make(load_plant(model)), folder)
+    return [] if make is None else write_machine(make(load_plant(model, choice=MEMORYLESS)), folder)
 
 
 def write_input(model: Path, folder: Path) -> Path:

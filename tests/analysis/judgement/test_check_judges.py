@@ -51,7 +51,7 @@ def test_everything_as_json(measurement: Path, capsys: Capture) -> None:
     options += ["--input", str(THREE_AXIS / "input.csv"), "--format", "json"]
     assert main(["check", str(THREE_AXIS), *options]) == 0
     found = json.loads(capsys.readouterr().out)
-    judgement = found["judgement"]
+    judgement = found["machines"][0]["judgement"]
     [sign] = judgement["signs"]
     assert sign["verdict"] == "as written"
     assert sign["errors"]["as written"] < sign["errors"]["without"] < sign["errors"]["opposite sign"]
@@ -73,33 +73,33 @@ def test_everything_as_json(measurement: Path, capsys: Capture) -> None:
         (["--measurement", "MEASUREMENT", "--axis", "Q"], "there is no axis 'Q'"),
     ],
 )
-def test_what_cannot_be_followed_is_a_sentence_and_counts(
+def test_what_cannot_be_followed_is_a_sentence_and_status_2(
     options: list[str], sentence: str, lists: Path, measurement: Path, capsys: Capture
 ) -> None:
     words = [str(measurement) if word == "MEASUREMENT" else word for word in options]
-    assert main(["check", str(lists), *words]) == 1
+    assert main(["check", str(lists), *words]) == 2
     printed = capsys.readouterr()
     assert sentence in printed.err
     assert "AXC-OUTLIER" in printed.out
 
 
 def test_of_several_leadscrew_tables_the_axis_must_be_named(measurement: Path, capsys: Capture) -> None:
-    assert main(["check", str(THREE_AXIS), "--measurement", str(measurement)]) == 1
+    assert main(["check", str(THREE_AXIS), "--measurement", str(measurement)]) == 2
     assert "does not say which axis it is of; --axis NAME does" in capsys.readouterr().err
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(word=st.text(max_size=200))
 def test_any_word_for_a_feed_is_followed_or_refused(word: str, lists: Path) -> None:
-    assert main(["check", str(lists), f"--feed={word}"]) in {0, 1}
+    assert main(["check", str(lists), f"--feed={word}"]) in {0, 2}
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.binary(max_size=200))
 def test_any_bytes_are_judged_or_refused(data: bytes, lists: Path) -> None:
     (lists / "any").write_bytes(data)
-    assert main(["check", str(lists), "--input", str(lists / "any"), "--measurement", str(lists / "any")]) in {1, 2}
-    assert main(["check", str(lists / "any")]) <= 100
+    assert main(["check", str(lists), "--input", str(lists / "any"), "--measurement", str(lists / "any")]) == 2
+    assert main(["check", str(lists / "any")]) in {0, 1}
 
 
 def test_the_command_needs_neither_pandas_nor_matplotlib(lists: Path) -> None:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import pytest
 
-from axcomp.native import FLAGS, LIBRARY_SOURCES
+from axcomp.native import FLAGS, LIBRARY_SOURCES, prebuilt_path, why_not_prebuilt
 
 ROOT = Path(__file__).parents[3]
 NATIVE = ROOT / "fmu_src" / "native"
@@ -25,6 +25,7 @@ HOST = Path(__file__).parent
 OK, WARNING, DISCARD, ERROR = 0, 1, 2, 3
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer", "-g")
 WINE = shutil.which("wine64") or "/usr/lib/wine/wine64"  # where Debian's package has it
+SSE = ("-msse2", "-mfpmath=sse")
 OPTIONS = ("-std=c99", "-ffp-contract=off", "-fvisibility=hidden")
 
 
@@ -32,7 +33,8 @@ OPTIONS = ("-std=c99", "-ffp-contract=off", "-fvisibility=hidden")
 class Way:
     """How library and host are built, and what runs the host.
 
-    ``linked``: in one program without a library to load.
+    ``linked``: in one program without a library to load; ``prebuilt``: platform whose library, as it comes with the
+    package, is loaded.
     """
 
     compiler: tuple[str, ...]
@@ -40,6 +42,7 @@ class Way:
     runner: tuple[str, ...] = ()
     suffix: str = ".so"
     linked: bool = False
+    prebuilt: str = ""
     environment: dict[str, str] = field(default_factory=dict, hash=False)
 
 
@@ -55,9 +58,22 @@ WAYS = {
     "forged": Way(("gcc",), ("-O1", *SANITIZERS, "-fno-sanitize=bool")),
     "threads": Way(("gcc",), ("-O1", "-g", "-fsanitize=thread")),
     "valgrind": Way(("gcc",), runner=("valgrind", "-q", "--error-exitcode=99", "--leak-check=full")),
-    "zig": Way(_zig("x86_64-linux-gnu.2.17")),
-    "win64": Way(_zig("x86_64-windows-gnu"), runner=(WINE,), suffix=".dll", environment={"WINEDEBUG": "-all"}),
-    "aarch64": Way((*_zig("aarch64-linux-musl"), "-static"), runner=("qemu-aarch64-static",), linked=True),
+    "linux64": Way(_zig("x86_64-linux-gnu.2.17"), prebuilt="linux64"),
+    "linux32": Way(_zig("x86-linux-gnu.2.17"), SSE, prebuilt="linux32"),
+    "win64": Way(
+        _zig("x86_64-windows-gnu"), runner=(WINE,), suffix=".dll", prebuilt="win64", environment={"WINEDEBUG": "-all"}
+    ),
+    "win32": Way(
+        _zig("x86-windows-gnu"),
+        SSE,
+        runner=("wine",),
+        suffix=".dll",
+        prebuilt="win32",
+        environment={"WINEDEBUG": "-all"},
+    ),
+    "aarch64": Way((*_zig("aarch64-linux-musl"), "-static"), runner=("qemu-aarch64",), linked=True),
+    "arm32": Way((*_zig("arm-linux-musleabihf"), "-static"), runner=("qemu-arm",), linked=True),
+    "i386": Way((*_zig("x86-linux-musl"), "-static"), ("-O2", *SSE), runner=("qemu-i386",), linked=True),
 }
 
 
@@ -82,10 +98,11 @@ class Program:
         path = folder / "script.txt"
         path.write_bytes("".join(f"{line}\n" for line in script).encode())
         environment = {**os.environ, **self.way.environment}
-        if self.way.runner == (WINE,):
+        if self.way.suffix == ".dll":
             environment["WINEPREFIX"] = str(self.host.parent / "wine")
+        runner = [tool if shutil.which(tool) else f"{tool}-static" for tool in self.way.runner]
         result = subprocess.run(
-            [*self.way.runner, str(self.host), str(self.library), str(path)],
+            [*runner, str(self.host), str(self.library), str(path)],
             capture_output=True,
             check=False,
             env=environment,
@@ -121,8 +138,12 @@ def program(name: str, work: Path) -> Program:
     """Build a host in a folder that tests in other processes may use too; skip the test if that cannot be done."""
     way = WAYS[name]
     for tool in (*way.compiler[:1], *way.runner[:1]):
-        if not shutil.which(tool):
+        if not shutil.which(tool) and not shutil.which(f"{tool}-static"):
             pytest.skip(f"{tool} is not installed")
+    if way.prebuilt == "linux32" and not Path("/lib/ld-linux.so.2").exists():
+        pytest.skip("this machine does not run 32-bit programs")
+    if way.prebuilt == "win32" and not any(Path("/usr/lib").glob("i386-linux-gnu/wine")):
+        pytest.skip("wine32 is not installed")
     if "ziglang" in way.compiler and find_spec("ziglang") is None:
         pytest.skip("the package ziglang is not installed")
     folder = work / f"host-{name}"
@@ -152,7 +173,12 @@ def _build(way: Way, folder: Path) -> None:
     else:
         shared = ["-shared"] if windows else ["-shared", "-fPIC"]
         target = folder / f"axcomp{way.suffix}"
-        _compile([*plain, *OPTIONS, *shared, *library, "-o", str(target), *libraries[:1]])
+        if way.prebuilt:
+            if why_not_prebuilt():
+                pytest.skip(why_not_prebuilt())
+            shutil.copy(prebuilt_path(way.prebuilt), target)
+        else:
+            _compile([*plain, *OPTIONS, *shared, *library, "-o", str(target), *libraries[:1]])
     _compile([*plain, "-std=c11", "-D_GNU_SOURCE", *linked, *host, "-o", str(folder / "host"), *libraries])
     if windows and not (folder / "host").exists():
         (folder / "host.exe").rename(folder / "host")

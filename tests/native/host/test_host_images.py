@@ -142,8 +142,8 @@ def test_damaged_images_are_refused(host: Callable[[str], Program], way: str, re
         folder.mkdir()
         (folder / "tables.bin").write_bytes(data)
         script += [instantiated(folder, 1), f"set 0 s {UPDATE_PATH} {folder}/tables.bin", "debug 0 1"]
-        script += [f"set 0 b {RELOAD} 1", f"step 0 {bits(0)} {bits(0.001)}", f"get 0 i {AXIS_ERROR}"]
-        script += [f"set 0 b {RELOAD} 0", f"step 0 {bits(0)} {bits(0.001)}"]
+        script += [f"set 0 b {RELOAD} 1", f"step 0 {bits(cases)} {bits(0.001)}", f"get 0 i {AXIS_ERROR}"]
+        script += [f"set 0 b {RELOAD} 0", f"step 0 {bits(cases + 0.001)} {bits(0.001)}"]
     answers = host(way).run(script, resources)[3:]
     assert cases > 40
     for number in range(cases):
@@ -284,7 +284,12 @@ def test_an_axis_keeps_the_lists_in_force_whatever_it_kept_before(
     script = [*started(resources), *moved(0, 0.0, 100.0)]
     for k, name in enumerate(("sizes", "twice", "sizes")):
         script += [f"set 0 s {UPDATE_PATH} {name}.bin", f"set 0 b {RELOAD} 1", *moved(0, 0.001 * (k + 1), 100.0)]
-        script += [f"get 0 i {AXIS_ERROR}", f"save 0 {8 + k}", f"set 0 b {RELOAD} 0", f"step 0 {bits(0)} {bits(0)}"]
+        script += [
+            f"get 0 i {AXIS_ERROR}",
+            f"save 0 {8 + k}",
+            f"set 0 b {RELOAD} 0",
+            f"step 0 {bits(0.001 * (k + 2))} {bits(0)}",
+        ]
     for state in (8, 9, 10):
         script += [f"restore 0 {state}", *moved(0, 0.1, 100.0), f"release 0 {state}"]
     answers = host(way).run(script, resources)
@@ -366,7 +371,7 @@ def test_updates_without_end_need_no_memory(host: Callable[[str], Program], way:
     turn = []
     for k in range(1000):
         turn += [f"set 0 s {UPDATE_PATH} {'ab'[k % 2]}.bin", f"set 0 b {RELOAD} 1", *moved(0, 0.001 * k, 50.0)]
-        turn += [f"set 0 b {RELOAD} 0", f"step 0 {bits(0.001 * k)} {bits(0.0)}"]
+        turn += [f"set 0 b {RELOAD} 0", f"step 0 {bits(0.001 * (k + 1))} {bits(0.0)}"]
     answers = host(way).run([*started(resources), *turn], resources)
     values = [answer.values[0] for line, answer in zip(turn, answers[3:], strict=True) if line.startswith("get")]
     assert len(set(values[::2])) == len(set(values[1::2])) == 1

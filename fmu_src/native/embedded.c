@@ -1,9 +1,8 @@
-/* Where instances and saved states get their memory: from the heap, or, among other sources, from arrays. */
-#include "instance.h"
-
+/* What only the sources in an FMU have: the tables stand among them (tables.c), instances and saved states in arrays; there
+ * is no log, and there are no other lists than these. */
 #include <string.h>
 
-#if defined(AXCOMP_EMBEDDED)
+#include "instance.h"
 
 #ifndef AXCOMP_INSTANCES
 #define AXCOMP_INSTANCES 4 /* that there can be at a time */
@@ -12,13 +11,13 @@
 #define AXCOMP_STATES 4 /* that can be saved at a time */
 #endif
 
-/* Bytes of the arrays, of which the state's are there twice; as in memory.c. */
+/* Bytes of the arrays, of which the state's are there twice, the inputs' three times; as in memory.c. */
 #define STATE_SIZE                                                                                                     \
     (AXCOMP_AXES * (sizeof(AxisMotion) + sizeof(AxisState)) + AXCOMP_VOLUMETRICS * sizeof(VolumetricState)              \
      + AXCOMP_LINES * sizeof(double))
 #define OTHER_SIZE                                                                                                     \
-    (AXCOMP_AXES * (sizeof(AxisInputs) + sizeof(AxisOutputs))                                                          \
-     + AXCOMP_VOLUMETRICS * (sizeof(VolumetricInputs) + sizeof(VolumetricOutputs)) + sizeof(double))
+    (AXCOMP_AXES * (3u * sizeof(AxisInputs) + sizeof(AxisOutputs))                                                     \
+     + AXCOMP_VOLUMETRICS * (3u * sizeof(VolumetricInputs) + sizeof(VolumetricOutputs)) + sizeof(double))
 
 /* Numbers of the largest alignment that is needed. */
 enum {
@@ -75,57 +74,52 @@ void axcomp_free_state(void *state)
     }
 }
 
-#else
-
-#include <stdlib.h>
-
-#include "lists.h"
-
-Instance *axcomp_new_instance(const char *name)
+fmi2Status axcomp_say(const Instance *instance, fmi2Status status, const char *format, ...)
 {
-    Instance *instance = (Instance *)calloc(1, sizeof *instance);
-    if (instance != NULL) {
-        instance->name = (char *)malloc(strlen(name) + 1);
-        if (instance->name == NULL) {
-            free(instance);
-            return NULL;
-        }
-        memcpy(instance->name, name, strlen(name) + 1);
+    (void)instance, (void)format;
+    return status;
+}
+
+void axcomp_log_as_wanted(Instance *instance, bool on, unsigned categories)
+{
+    (void)instance, (void)on, (void)categories;
+}
+
+const Lists *axcomp_own_lists(Instance *instance, fmi2String location)
+{
+    (void)instance, (void)location;
+    return &axcomp_tables;
+}
+
+/* An update is refused. */
+void axcomp_watch_reload(Instance *instance, bool path_set)
+{
+    (void)path_set;
+    instance->memory.refused = instance->memory.controls.reload && !instance->memory.reload_seen;
+}
+
+void axcomp_take_update(Instance *instance)
+{
+    Memory *memory = &instance->memory;
+    for (int32_t i = 0; memory->refused && i < instance->tables.axis_count; i++) {
+        memory->state.axis[i].error = memory->outputs.axis[i].error = ERROR_UPDATE;
     }
-    return instance;
+    memory->refused = false;
+    memory->reload_seen = memory->controls.reload;
 }
 
-bool axcomp_give_arrays(Instance *instance)
+const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
 {
-    const Shape *shape = &instance->shape;
-    instance->block = calloc(1, 2u * axcomp_state_size(shape) + axcomp_inputs_size(shape) + axcomp_outputs_size(shape));
-    if (instance->block != NULL) {
-        axcomp_place_arrays(instance);
-    }
-    return instance->block != NULL;
+    return instance->first->identity == identity ? instance->first : NULL;
 }
 
-void axcomp_free_instance(Instance *instance)
+const Lists *axcomp_waiting_lists(const Instance *instance)
 {
-    axcomp_release_lists(instance->first);
-    while (instance->own != NULL) {
-        Lists *next = instance->own->next;
-        axcomp_free_lists(instance->own);
-        instance->own = next;
-    }
-    free(instance->block);
-    free(instance->name);
-    free(instance);
+    (void)instance;
+    return NULL;
 }
 
-void *axcomp_new_state(size_t size)
+void axcomp_wait_for(Instance *instance, const Lists *lists)
 {
-    return calloc(1, size);
+    (void)instance, (void)lists;
 }
-
-void axcomp_free_state(void *state)
-{
-    free(state);
-}
-
-#endif
