@@ -168,6 +168,7 @@ def _simulate(
     tool_length: float | None,
     progress: Progress,
     meanwhile: Callable[[], dict[str, float]],
+    progress: Progress,
 ) -> tuple[list[Trace], dict[str, float]]:
     """Share the simulations out to processes, each of which loads both FMUs.
 

@@ -75,7 +75,7 @@ class Built(NamedTuple):
         return self.reading.machine
 
     def accompanying(self, *, with_tables: bool = True) -> dict[str, bytes]:
-        """Return documentation, licence, icon and terminals by their paths; without tables also without findings."""
+        """Return documentation, licence, icon and terminals by path; unless ``with_tables`` no findings either."""
         machine = self.machine if with_tables else None
         return accompanying(self.description, self.variables, machine, self.findings)
 
