@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from ..analysis.diagnosis import write_named_diagnoses
 from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native, write_image
@@ -13,8 +15,8 @@ from ..lists import Severity
 from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
 from ..plant import package_plant
-from .axis_type import add_axis_type
 from .check import STATUS_MAX
+from .reading_options import add_reading_options
 
 EXAMPLE = """\
 Without --machine and --output, axcomp.fmu and plant.fmu of the example machine are built in the current folder.
@@ -27,7 +29,7 @@ serves the machine itself; with the compiler of axcomp[cross] all platforms can 
 --image writes the tables of the lists, which a running native FMU takes by its input reload; the exit status is then
 the number of errors in the lists, at most 100: such an image is written, and reload refuses it.
 
-A diagnosis file that a volumetric list names is written too, as axcomp diagnose does.
+Nothing that is there is replaced but what axcomp has written itself: an FMU, an image, a diagnosis file.
 
 examples:
   axcomp build
@@ -80,7 +82,11 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         action="store_true",
         help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
     )
-    add_axis_type(parser)
+    parser.add_argument("--verbose", action="store_true", help="name every file that is packed, and where it is from")
+    parser.add_argument(
+        "--diagnosis", action="store_true", help="write the diagnosis files that volumetric lists name, too"
+    )
+    add_reading_options(parser)
     parser.set_defaults(do=_do_build)
 
 
@@ -100,7 +106,10 @@ def _do_build(args: argparse.Namespace) -> int:
             print(finding, file=sys.stderr)
         for line in _summary(built):
             print(line)
-        for said in write_named_diagnoses(built.reading):
+        if args.verbose:
+            for line in _packed(built):
+                print(line)
+        for said in write_named_diagnoses(built.reading) if args.diagnosis else ():
             if isinstance(said, Path):
                 print(said)
             else:
@@ -119,28 +128,28 @@ def _do_build(args: argparse.Namespace) -> int:
 
 
 def _build(args: argparse.Namespace, lists: Path) -> Built:
+    reading: dict[str, Any] = {"axis_type": args.axis_type, "allow_outside": args.allow_outside}
     if args.image is not None:
-        return write_image(lists, args.image, cycle_time=args.cycle_time, axis_type=args.axis_type)
+        return write_image(lists, args.image, cycle_time=args.cycle_time, **reading)
     output = args.output or Path.cwd()
+    reading |= {"cycle_time": args.cycle_time, "naming": args.naming}
     if args.runtime == "native":
-        return package_native(
-            lists,
-            output,
-            cycle_time=args.cycle_time,
-            naming=args.naming,
-            platforms=args.platforms,
-            axis_type=args.axis_type,
-        )
+        return package_native(lists, output, platforms=args.platforms, **reading)
     if args.platforms:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
-    return package_axcomp(
-        lists,
-        output,
-        cycle_time=args.cycle_time,
-        naming=args.naming,
-        external_tool=not args.no_external_tool,
-        axis_type=args.axis_type,
-    )
+    return package_axcomp(lists, output, external_tool=not args.no_external_tool, **reading)
+
+
+def _packed(built: Built) -> Iterator[str]:
+    """Name every file in an FMU, those of the lists with where they are from; of an image the lists it is made of."""
+    sources = dict(zip(built.lists, built.reading.documents, strict=False))
+    if zipfile.is_zipfile(built.path):
+        with zipfile.ZipFile(built.path) as archive:
+            for name in archive.namelist():
+                source = sources.get(name.removeprefix("resources/"))
+                yield f"packed: {name}" + (f" from {source}" if source else "")
+    else:
+        yield from (f"read: {source}" for source in sources.values())
 
 
 def _summary(built: Built) -> Iterator[str]:

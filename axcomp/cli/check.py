@@ -11,8 +11,8 @@ from typing import Any
 from ..analysis.judgement import Judgement
 from ..lists import Reading, Severity, read_machine
 from ..model import machine_path
-from .axis_type import add_axis_type
 from .judgement_options import add_judgement_options, evidence_of
+from .reading_options import add_reading_options
 
 STATUS_MAX = 100
 """Largest exit status: larger ones are not the program's to use."""
@@ -47,12 +47,12 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     )
     parser.add_argument("--format", choices=("text", "json"), default="text", help="what to print (default: text)")
     add_judgement_options(parser)
-    add_axis_type(parser)
+    add_reading_options(parser)
     parser.set_defaults(do=_do_check)
 
 
 def _do_check(options: argparse.Namespace) -> int:
-    reading = read_machine(options.path, axis_type=options.axis_type)
+    reading = read_machine(options.path, axis_type=options.axis_type, allow_outside=options.allow_outside)
     evidence = evidence_of(options, reading.machine)
     judgement = evidence.judge(reading)
     reading = replace(reading, findings=(*reading.findings, *judgement.findings))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ..lists import read_machine
 from ..report import REPEATS, make_report
+from ..saving import write_whole
 from .check import STATUS_MAX
 from .judgement_options import add_judgement_options, evidence_of
 from .lists import add_lists_command, failed
@@ -37,7 +38,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_report(options: argparse.Namespace) -> int:
-    reading = read_machine(options.path)
+    reading = read_machine(options.path, allow_outside=options.allow_outside)
     if not reading.machine.axes:
         for finding in reading.findings:
             print(finding, file=sys.stderr)
@@ -46,7 +47,7 @@ def _do_report(options: argparse.Namespace) -> int:
         return failed("report", f"there is no folder {options.output.parent}")
     evidence = evidence_of(options, reading.machine)
     report = make_report(reading, evidence, cycle_time=options.cycle_time, repeats=options.repeats)
-    options.output.write_text(report.html(), encoding="utf-8")
+    write_whole(options.output, report.html())
     for note in report.notes:
         print(f"axcomp report: {note}", file=sys.stderr)
     if options.format == "json":

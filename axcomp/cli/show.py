@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import io
 import json
 import sys
 from collections.abc import Sequence
@@ -12,8 +13,9 @@ from pathlib import Path
 
 from ..kinds import KINDS
 from ..plot import VOLUMETRIC, Content, NotComparableError, Records, contents_of, overview, page, save, shown
-from .axis_type import add_axis_type
+from ..saving import write_whole
 from .lists import add_lists_command, failed, read_lists
+from .reading_options import add_axis_type
 
 ROWS = 12
 HEAD_MAX = 110
@@ -73,7 +75,7 @@ def _do_show(args: argparse.Namespace) -> int:
 
 def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str]]:
     """Return what is asked for, and the names of the machine's axes."""
-    machine = read_lists(path, args.axis_type).machine
+    machine = read_lists(path, args.allow_outside, args.axis_type).machine
     return contents_of(machine, args.axis, args.kind, args.tool_length), {axis.name for axis in machine.axes}
 
 
@@ -117,7 +119,7 @@ def _in_file_name(name: str) -> str:
 
 
 def _write_page(contents: Sequence[Content], path: Path, title: str, notes: Sequence[str]) -> list[Path]:
-    path.write_text(page(title, contents, notes), encoding="utf-8")
+    write_whole(path, page(title, contents, notes))
     return [path]
 
 
@@ -125,13 +127,14 @@ def _write_csv(contents: Sequence[Content], path: Path, _title: str, _notes: Seq
     """Write all numbers below each other; columns that a content does not have stay empty."""
     all_records = [content.records() for content in contents]
     columns = list(dict.fromkeys(column for records in all_records for column in records.columns))
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["axis", "kind", "part", *columns])
-        for content, records in zip(contents, all_records, strict=True):
-            for row in records.rows:
-                cells = dict(zip(records.columns, row, strict=True))
-                writer.writerow([*astuple(content.subject), *(cells.get(name, "") for name in columns)])
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["axis", "kind", "part", *columns])
+    for content, records in zip(contents, all_records, strict=True):
+        for row in records.rows:
+            cells = dict(zip(records.columns, row, strict=True))
+            writer.writerow([*astuple(content.subject), *(cells.get(name, "") for name in columns)])
+    write_whole(path, file.getvalue())
     return [path]
 
 

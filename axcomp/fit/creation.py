@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..lists import write_whole
+from ..saving import write_all
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,8 +102,7 @@ class Creation:
     def write(self, path: str | Path | None = None) -> list[Path]:
         """Write everything where it was read, or the list alone elsewhere, whole or not at all; return what was."""
         files = self.files if path is None else {Path(path): self.data}
-        for file, data in files.items():
-            write_whole(file, data)
+        write_all(files)
         return list(files)
 
     def plot(self, ax: Axes | None = None) -> Axes:

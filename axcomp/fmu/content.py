@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.metadata
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -52,7 +52,11 @@ class Built(NamedTuple):
 
 
 def read_content(
-    lists: str | os.PathLike[str], cycle_time: float, naming: Naming = "structured", axis_type: TypeName | None = None
+    lists: str | os.PathLike[str],
+    cycle_time: float,
+    naming: Naming = "structured",
+    axis_type: TypeName | None = None,
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Read and compile the lists of a machine.
 
@@ -61,7 +65,7 @@ def read_content(
     BuildError
         If there is no axis in them, or they cannot be run or packed.
     """
-    reading = read_machine(lists, axis_type=axis_type)
+    reading = read_machine(lists, axis_type=axis_type, allow_outside=allow_outside)
     machine = reading.machine
     if not machine.axes:
         raise BuildError("\n".join([*map(str, reading.findings), f"{lists}: there is no axis in these lists."]))

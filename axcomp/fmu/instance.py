@@ -18,7 +18,7 @@ from ..kinds import Severity
 from ..lists import read_machine
 from ..model import Machine
 from ..runtime import Runtime
-from .packed_interface import FILE_NAME, Interface
+from .packed_interface import FILE_NAME, FOLDER, Interface
 from .saved import Saved
 
 FINDINGS_MAX = 100
@@ -87,7 +87,7 @@ class Instance:
 
     def _read(self, path: Path) -> tuple[Machine, list[str], int]:
         """Return the machine of a list, what does not fit the variables, and the number of errors found."""
-        reading = read_machine(path, axis_type=self._interface.axis_type)
+        reading = read_machine(path, axis_type=self._interface.axis_type, allow_outside=[self._resources / FOLDER])
         findings = reading.findings
         for finding in findings[:FINDINGS_MAX]:
             self.tell(finding.severity, str(finding))

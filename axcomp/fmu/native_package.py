@@ -46,6 +46,7 @@ def package_native(
     naming: Naming = "structured",
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the FMU of a machine; a folder as output: ``axcomp.fmu`` in it.
 
@@ -61,7 +62,7 @@ def package_native(
         ``structured`` or ``flat``.
     platforms : sequence of str
         Those of ``PLATFORMS`` that get a library; none: the one this Python runs on.
-    axis_type : str or None
+    axis_type, allow_outside
         As in ``read_machine``.
 
     Raises
@@ -71,7 +72,7 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type)
+    content = read_content(lists, cycle_time, naming, axis_type, allow_outside)
     files = {f"resources/{name}": data for name, data in content.lists.items()}
     files.update(_libraries(platforms or (own_platform(),)))
     description = replace(
@@ -95,6 +96,7 @@ def write_image(
     *,
     cycle_time: float = CYCLE_TIME,
     axis_type: TypeName | None = None,
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
 
@@ -105,7 +107,7 @@ def write_image(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, axis_type=axis_type)
+    content = read_content(lists, cycle_time, axis_type=axis_type, allow_outside=allow_outside)
     path = output_path(output, IMAGE)
     write_file(path, image_of(content.compiled, _guid(content), content.findings))
     return content._replace(path=path)

@@ -7,7 +7,7 @@ from .catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
 from .compensation import TableReader
 from .document import Document
 from .etalon import read_etalon, write_etalon
-from .files import Files
+from .files import Files, is_absolute, open_regular
 from .findings import CODES, LIMIT, Finding, Findings, ListError
 from .format import Lines
 from .grammar import Entry, decode, entries, number, string
@@ -15,7 +15,6 @@ from .isg_csv import read_isg_csv, write_isg_csv
 from .positions import Position
 from .reader import Reading, TypeName, read_machine, reread_volumetric
 from .reference import HEADINGS, PAGE, as_dict, cells, page
-from .saving import write_whole
 from .start_up import START_UP_NAME, MachineFiles, find_lists
 from .values import ListValues, read_values
 from .volumetric_blocks import ParameterBlock
@@ -65,8 +64,10 @@ __all__ = [
     "format_compensation_list",
     "format_start_up_list",
     "format_volumetric_list",
+    "is_absolute",
     "machine_documents",
     "number",
+    "open_regular",
     "page",
     "parameter",
     "parameter_file",
@@ -79,5 +80,4 @@ __all__ = [
     "write_etalon",
     "write_isg_csv",
     "write_machine",
-    "write_whole",
 ]

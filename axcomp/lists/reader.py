@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -48,6 +48,8 @@ class Reading:
         What the lists say about the axes besides their tables.
     axis_type : str or None
         What was said of axes without axis lists.
+    allow_outside : tuple of Path
+        Folders that names in the lists may lead into besides that of the machine.
     """
 
     machine: Machine
@@ -59,6 +61,7 @@ class Reading:
     _axis_lists: Mapping[int, Document] = field(repr=False)
     _compensation_lists: Mapping[int, Document] = field(repr=False)
     axis_type: TypeName | None = None
+    allow_outside: tuple[Path, ...] = ()
 
     def axis_list(self, number: int) -> Document | None:
         """Return the list that describes an axis, by its logical number."""
@@ -70,7 +73,9 @@ class Reading:
 
     def again(self) -> Reading:
         """Read the documents as they are now; those that have not been changed since are not parsed again."""
-        return read_machine(self.path, documents=self.documents.values(), axis_type=self.axis_type)
+        return read_machine(
+            self.path, documents=self.documents.values(), axis_type=self.axis_type, allow_outside=self.allow_outside
+        )
 
     def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
         """Return findings about these lists with the columns of the entries they are about."""
@@ -86,6 +91,7 @@ def read_machine(
     strict: bool = False,
     documents: Iterable[Document] | None = None,
     axis_type: TypeName | None = None,
+    allow_outside: Iterable[str | PathLike[str]] = (),
 ) -> Reading:
     """Read the lists of a machine.
 
@@ -103,6 +109,8 @@ def read_machine(
     axis_type : str, optional
         ``rotary`` or ``modulo``: without any axis list, of the axes that have compensation lists. All others, and all
         without it, are translatory.
+    allow_outside : iterable of path
+        Folders that names in the lists may lead into; else only the folder of the machine.
 
     Raises
     ------
@@ -110,8 +118,9 @@ def read_machine(
         In strict mode, with all findings of severity error.
     """
     findings = Findings()
-    reader = _MachineReader(findings, Files(findings, documents), axis_type)
-    reading = reader.read(Path(path))
+    allowed = tuple(map(Path, allow_outside))
+    reader = _MachineReader(findings, Files(findings, documents, allowed), axis_type)
+    reading = replace(reader.read(Path(path)), allow_outside=allowed)
     errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
         raise ListError(errors)
@@ -119,7 +128,7 @@ def read_machine(
 
 
 def reread_volumetric(
-    path: str | PathLike[str], index: int, files: Mapping[int, str]
+    path: str | PathLike[str], index: int, files: Mapping[int, str], allow_outside: Iterable[str | PathLike[str]] = ()
 ) -> tuple[Volumetric | None, tuple[Finding, ...]]:
     """Read one volumetric compensation of a machine again.
 
@@ -131,6 +140,8 @@ def reread_volumetric(
         Of the compensation.
     files : mapping of int to str
         Parameter files to be read instead of those the list names, by their index.
+    allow_outside : iterable of path
+        As for ``read_machine``.
 
     Returns
     -------
@@ -140,10 +151,11 @@ def reread_volumetric(
         What there is to say about this compensation.
     """
     findings, others = Findings(), Findings()
-    start = _MachineReader(others, Files(others)).start(Path(path))
+    allowed = tuple(map(Path, allow_outside))
+    start = _MachineReader(others, Files(others, allowed=allowed)).start(Path(path))
     if start is None:
         return None, ()
-    read = Files(findings)
+    read = Files(findings, allowed=allowed)
     volumetric = read_one(index, start.lists, read, start.axes, findings, files)
     return volumetric, located(findings.all(), read.documents)
 

@@ -14,6 +14,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
+from ..saving import write_whole
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -62,11 +64,15 @@ def printed(text: str) -> str:
 
 def png(figure: Figure) -> bytes:
     """Return a figure as a PNG file; the same figure gives the same bytes."""
+    return _drawn(figure, "png")
+
+
+def _drawn(figure: Figure, form: str) -> bytes:
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", metadata={"Software": None})
+    figure.savefig(stream, format=form, metadata={"Software": None} if form == "png" else None)
     return stream.getvalue()
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write a figure as a PNG file."""
-    path.write_bytes(png(figure))
+    """Write a figure as what the suffix says, PNG where there is none; ValueError if that cannot be drawn."""
+    write_whole(path, _drawn(figure, path.suffix[1:].lower() or "png"))

@@ -155,7 +155,7 @@ def test_both_slashes_separate(name: str, read_lists: ReadLists) -> None:
     assert (codes(reading), acting(reading)) == ([], {1: ["leadscrew"]})
 
 
-@pytest.mark.parametrize("name", [r"SUB\KW.LIS", r"..\CNC\Sub\Kw.lis", r"D:\other\kw.lis", "/home/cnc/KW.lis"])
+@pytest.mark.parametrize("name", [r"SUB\KW.LIS", r"D:\other\kw.lis", "/home/cnc/KW.lis"])
 def test_names_of_another_computer_are_matched_with_a_warning(name: str, read_lists: ReadLists) -> None:
     files = {"cnc/hochlauf.lis": f"zahl_kw 1\nachs_kw[0] {name}\n", "cnc/sub/kw.lis": compensation(1)}
     files["cnc/kw.lis"] = compensation(1)
@@ -163,21 +163,27 @@ def test_names_of_another_computer_are_matched_with_a_warning(name: str, read_li
     assert (codes(reading), acting(reading)) == (["AXC-PATH"], {1: ["leadscrew"]})
 
 
-def test_an_absolute_name_is_used_as_it_is(read_lists: ReadLists, tmp_path: Path) -> None:
-    target = tmp_path / "elsewhere" / "kw.lis"
-    target.parent.mkdir()
-    target.write_text(compensation(1))
-    reading = read_lists({"cnc/hochlauf.lis": f"zahl_kw 1\nachs_kw[0] {target}\n"}, "cnc")
-    assert (codes(reading), acting(reading)) == ([], {1: ["leadscrew"]})
+@pytest.mark.parametrize("name", ["{}/elsewhere/kw.lis", r"..\elsewhere\kw.lis", "../cnc/../elsewhere/kw.lis"])
+def test_a_name_that_leads_elsewhere_is_used_where_that_is_allowed(name: str, tmp_path: Path) -> None:
+    for file, text in (("elsewhere/kw.lis", compensation(1)), ("cnc/x", "")):
+        (tmp_path / file).parent.mkdir()
+        (tmp_path / file).write_text(text)
+    start = tmp_path / "cnc" / "hochlauf.lis"
+    start.write_text(f"zahl_kw 1\nachs_kw[0] {name.format(tmp_path)}\n")
+    assert codes(read_machine(start)) == ["AXC-FOLDER"]
+    reading = read_machine(start, allow_outside=[tmp_path / "elsewhere"])
+    assert codes(reading) == []
+    assert acting(reading) == acting(reading.again()) == {1: ["leadscrew"]}
 
 
 def test_a_list_that_may_not_be_read_is_named(read_lists: ReadLists, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> bytes:
+    def refuse(path: Path, *_: object) -> int:
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
-    reading = read_lists({"achskw1.lis": compensation(1)})
-    [finding] = reading.findings
+    path = read_lists({"achskw1.lis": compensation(1)}).path
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "open", refuse)
+        [finding] = read_machine(path).findings
     assert (finding.code, finding.file[-11:]) == ("AXC-UNREADABLE", "achskw1.lis")
     assert "Permission denied" in finding.message
 
