@@ -61,8 +61,7 @@ class AxcompSlave(Fmi2Slave):
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Run the cycles of a communication step."""
-        self._instance.do_step(current_time, step_size)
-        return True
+        return self._instance.do_step(current_time, step_size) is not False
 
     get_real, get_integer, get_boolean, get_string = map(_getter, TYPES)
     set_real, set_integer, set_boolean, set_string = map(_setter, TYPES)

@@ -68,6 +68,7 @@ VARIABLES = {
     "reload": (2, "Boolean", "input", "discrete", None, "false"),
     "update_path": (3, "String", "parameter", "tunable", None, ""),
     "cycle_time": (4, "Real", "parameter", "fixed", "s", "0.001"),
+    "largest_step": (7, "Integer", "parameter", "fixed", None, "10000000"),
     "tool_length": (5, "Real", "input", "continuous", "mm", "0.0"),
     "derive_motion": (6, "Boolean", "parameter", "fixed", None, "false"),
     "X.setpoint": (64, "Real", "input", "continuous", "mm", "0.0"),

@@ -191,8 +191,13 @@ class Instance:
         self.runtime.begin(self._start_time)
 
     @guarded
-    def do_step(self, time: float, duration: float) -> None:
-        """Run the cycles whose instants lie in [time, time + duration) with the inputs held."""
+    def do_step(self, time: float, duration: float) -> bool:
+        """Run the cycles whose instants lie in [time, time + duration) with the inputs held; False: it is too long."""
+        due = self.runtime.due(time + duration)
+        if due > self.controls.largest_step:
+            limit = self.controls.largest_step
+            self.tell(Severity.ERROR, f"do_step: a step of {due} cycles is refused; largest_step is {limit}")
+            return False
         if self.controls.reload and not self._reload_seen:
             self._reload_seen = True
             self._reload()
@@ -200,6 +205,7 @@ class Instance:
         self.runtime.advance(time + duration)
         for notice in self.runtime.notices():
             self.tell(Severity.WARNING, notice)
+        return True
 
     def _reload(self) -> None:
         """Read the lists in ``update_path``; they are refused as a whole when anything about them is wrong."""
@@ -225,6 +231,7 @@ class Instance:
         machine = self.runtime.machine
         saved = Saved(
             self.controls.cycle_time,
+            self.controls.largest_step,
             self.controls.reload,
             self.controls.update_path,
             self._reload_seen,
@@ -246,6 +253,7 @@ class Instance:
         runtime.restore(saved.snapshot)
         self._run(runtime)
         self.controls.cycle_time = saved.cycle_time
+        self.controls.largest_step = saved.largest_step
         self.controls.reload = saved.reload
         self.controls.update_path = saved.update_path
         self._reload_seen = saved.reload_seen

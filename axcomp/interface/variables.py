@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 
 from ..kernel import Inputs, Outputs
 from ..kinds import KINDS, kinds_of
-from ..model import AXES_MAX, COMPENSATIONS_MAX, CYCLE_TIME, Axis, Machine, Volumetric
+from ..model import AXES_MAX, COMPENSATIONS_MAX, CYCLE_TIME, LARGEST_STEP, Axis, Machine, Volumetric
 from .dependencies import Dependencies, Input, volumetric_input, volumetric_switch
 from .slot import Slot, slot_in
 from .variable import BLOCK, Causality, Value, Variability, Variable
@@ -69,6 +69,7 @@ class Controls:
     """The variables that the kernel does not know."""
 
     cycle_time: float = CYCLE_TIME
+    largest_step: int = LARGEST_STEP
     reload: bool = False
     update_path: str = ""
 
@@ -87,6 +88,14 @@ OF_MACHINE = (
     ),
     Declaration(
         4, "cycle_time", "parameter", CYCLE_TIME, "Cycle time of the position controller", "s", variability="fixed"
+    ),
+    Declaration(
+        7,
+        "largest_step",
+        "parameter",
+        LARGEST_STEP,
+        "Cycles that a communication step may have; a longer one is refused",
+        variability="fixed",
     ),
     Declaration(
         6,

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .interpolation import LARGEST
+
 
 @dataclass(slots=True)
 class TemperatureTable:
@@ -45,7 +47,7 @@ def take_temperature(
     """Take over offset and coefficient if they are finite; return how much less is added with them at a position."""
     if given.offset == state.offset and given.coefficient == state.coefficient:
         return 0.0
-    if given.offset - given.offset != 0.0 or given.coefficient - given.coefficient != 0.0:
+    if not (abs(given.offset) < LARGEST and abs(given.coefficient) < LARGEST):
         return 0.0
     before = temperature_value(table, state, position)
     state.offset = given.offset
@@ -68,7 +70,5 @@ def adopt_temperature(before: TemperatureTable, after: TemperatureTable, given: 
 
 
 def temperature_fits(table: TemperatureTable) -> bool:
-    """Tell whether the table can be used: its numbers are finite."""
-    return table.position - table.position == 0.0 and (
-        table.offset - table.offset == 0.0 and table.coefficient - table.coefficient == 0.0
-    )
+    """Tell whether the table can be used: sums with its numbers do not overflow."""
+    return abs(table.position) < LARGEST and abs(table.offset) < LARGEST and abs(table.coefficient) < LARGEST

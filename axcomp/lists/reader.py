@@ -356,7 +356,8 @@ class _MachineReader:
 
     @staticmethod
     def _note_inactive(kind: Kind[Any], source: TableReader) -> None:
-        name = next(name for name in kind.columns if source.values.cells(name))
+        # There may be no more of a table than its size.
+        name = next(name for name in (*kind.columns, *kind.sizes) if source.values.cells(name))
         entry = kind.activator.name
         message = f"There is a {kind.name} table, but {entry} of axis {source.axis.number} is 0: it does not act."
         source.note(kind.inactive_code, name, message, *min(source.values.cells(name)))

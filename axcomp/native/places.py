@@ -24,7 +24,7 @@ from ..interface import (
 )
 from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_of
 from ..kinds import KIND_NAMES, KINDS
-from ..model import CYCLE_TIME_MAX
+from ..model import CYCLE_TIME_MAX, LARGEST_STEP
 from ..runtime import ON_INSTANT
 from .layout import ctypes_of
 
@@ -55,6 +55,8 @@ def layout_header() -> str:
 #define AXCOMP_LAYOUT 0x{layout():08x}u  /* of the records in images and states */
 #define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
+
+enum {{ AXCOMP_LARGEST_STEP = {LARGEST_STEP} }}; /* cycles of a communication step, unless the host says more */
 
 enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK} }};
 

@@ -9,13 +9,10 @@ from typing import NamedTuple
 
 from ..kernel import CYCLES_MAX, LARGEST, AxisTable, Tables, Vec, zero
 from ..kinds import AxisCompiler, CompileError, kind_of, kinds_of
-from ..model import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, Compensation, Machine
+from ..model import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, SHORTEST_RANGE, Axis, Compensation, Machine
 from .compile_volumetric import compile_volumetric
 
 __all__ = ["CompileError", "Compiled", "compile_tables"]
-
-SHORTEST_RANGE = 1e-6
-"""Modulo ranges are longer, °."""
 
 
 class Compiled(NamedTuple):

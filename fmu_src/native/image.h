@@ -30,7 +30,7 @@ typedef struct {
     char said[SAID_LENGTH]; /* the first of them; 0 to its end */
 } ImageHeader;
 
-/* Tables in memory. They stay until the instance is freed: a saved state may come back to them. */
+/* Tables in memory. They stay as long as the instance uses them or a state in memory does; of all others the last few. */
 typedef struct Lists {
     Tables tables;
     uint32_t identity;  /* equal for equal tables */
@@ -41,6 +41,7 @@ typedef struct Lists {
     int32_t errors[AXES];  /* of an axis that keeps its old tables when these are taken: why; else 0 */
     double *pool;          /* that the tables point into; owned */
     int32_t numbers;       /* in the pool */
+    int held;              /* by so many states in memory */
     struct Lists *next;
 } Lists;
 

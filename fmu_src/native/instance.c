@@ -1,6 +1,7 @@
 /* What an instance does between the calls of FMI: initial values, updates, cycles, messages. */
 #include "instance.h"
 
+#include <fenv.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,9 +10,26 @@
 
 #include "places.h"
 
-enum { MESSAGE_LENGTH = 1024 };
+enum { MESSAGE_LENGTH = 1024, KEPT_LISTS = 8 };
 
-static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
+static const double COUNTED_MAX = 9007199254740992.0;  /* cycles are counted exactly */
+
+/* Round to nearest, whatever the host does; what it did is to be restored. */
+static int round_to_nearest(void)
+{
+    int before = fegetround();
+    if (before != FE_TONEAREST) {
+        fesetround(FE_TONEAREST);
+    }
+    return before;
+}
+
+static void restore_rounding(int mode)
+{
+    if (mode != FE_TONEAREST && mode >= 0) {
+        fesetround(mode);
+    }
+}
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
 
@@ -56,6 +74,7 @@ void axcomp_begin_again(Instance *instance)
     memset(instance->told, 0, sizeof instance->told);
     memory->phase = INSTANTIATED;
     memory->controls.cycle_time = instance->lists->cycle_time;
+    memory->controls.largest_step = AXCOMP_LARGEST_STEP;
     axcomp_set_initial_inputs(&instance->lists->tables, &memory->inputs);
 }
 
@@ -71,6 +90,7 @@ Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char
 {
     const char *complaint = "there is no memory for it";
     Lists *lists = (Lists *)calloc(1, sizeof *lists);
+    int rounding = round_to_nearest();
 #if defined(AXCOMP_EMBEDDED)
     if (path[0] == 0) {
         path = "the image in the sources";
@@ -83,6 +103,7 @@ Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char
         size_t size = 0;
         unsigned char *data = axcomp_read_file(path, &size);
         if (data == NULL) {
+            restore_rounding(rounding);
             axcomp_say(instance, status, "%s: %s cannot be read", call, path);
             free_lists(lists);
             return NULL;
@@ -92,6 +113,7 @@ Lists *axcomp_read_lists(const Instance *instance, fmi2Status status, const char
         }
         free(data);
     }
+    restore_rounding(rounding);
     if (complaint != NULL) {
         axcomp_say(instance, status, "%s: %s is refused: %s", call, path, complaint);
         free_lists(lists);
@@ -172,6 +194,48 @@ Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
     return lists;
 }
 
+void axcomp_hold_lists(Instance *instance, uint32_t identity, int by)
+{
+    Lists *lists = axcomp_lists_with(instance, identity);
+    if (lists != NULL && lists->held + by >= 0) {
+        lists->held += by;
+    }
+}
+
+/* Free lists that nothing uses, but for the last ones: a state in bytes may come back to them. */
+static void forget_lists(Instance *instance)
+{
+    int kept = 0;
+    for (Lists **at = &instance->first->next; *at != NULL;) {
+        Lists *lists = *at;
+        bool used = lists == instance->lists || lists == instance->waiting || lists->held > 0;
+        if (!used && ++kept > KEPT_LISTS) {
+            *at = lists->next;
+            free_lists(lists);
+        } else {
+            at = &lists->next;
+        }
+    }
+}
+
+bool axcomp_memory_fits(const Lists *lists, const Memory *memory)
+{
+    const bool *const booleans[] = {&memory->controls.reload, &memory->reload_seen, &memory->refused};
+    for (size_t i = 0; i < sizeof booleans / sizeof booleans[0]; i++) {
+        if (*(const unsigned char *)booleans[i] > 1) {
+            return false;
+        }
+    }
+    int phase = 0;
+    memcpy(&phase, &memory->phase, sizeof memory->phase);
+    return (phase == INSTANTIATED || phase == INITIALIZATION || phase == STEPPING || phase == TERMINATED)
+        && memchr(memory->controls.update_path, 0, sizeof memory->controls.update_path) != NULL
+        && axcomp_cycle_time_fits(memory->controls.cycle_time) && memory->start_time - memory->start_time == 0.0
+        && memory->cycles >= 0.0 && memory->cycles <= COUNTED_MAX
+        && axcomp_state_fits(&lists->tables, &memory->state)
+        && axcomp_given_fits(&memory->inputs, &memory->outputs);
+}
+
 void axcomp_watch_reload(Instance *instance, bool path_set)
 {
     Memory *memory = &instance->memory;
@@ -204,6 +268,7 @@ void axcomp_watch_reload(Instance *instance, bool path_set)
     }
     instance->waiting = lists;
     memory->refused = lists == NULL;
+    forget_lists(instance);
 }
 
 /* Take the lists that wait, or tell by the outputs that they were refused. */
@@ -237,7 +302,9 @@ void axcomp_preview_outputs(Instance *instance)
     Memory *memory = &instance->memory;
     instance->lists->tables.cycle_time = memory->controls.cycle_time;
     instance->preview = memory->state;
+    int rounding = round_to_nearest();
     axcomp_cycle(&instance->lists->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
+    restore_rounding(rounding);
 }
 
 /* Tell, once for an axis and a kind, that a compensation is used beyond its table. */
@@ -258,14 +325,18 @@ static void give_notices(Instance *instance)
 fmi2Status axcomp_advance(Instance *instance, double time)
 {
     Memory *memory = &instance->memory;
+    int rounding = round_to_nearest();
     double due = ceil((time - memory->start_time) / instance->lists->tables.cycle_time - AXCOMP_ON_INSTANT);
-    if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
-        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
+    if (!(due - memory->cycles <= memory->controls.largest_step && due <= COUNTED_MAX)) {
+        restore_rounding(rounding);
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of %.0f cycles is refused; largest_step is %d",
+                          due - memory->cycles, memory->controls.largest_step);
     }
     take_update(instance);
     for (; memory->cycles < due; memory->cycles += 1.0) {
         axcomp_cycle(&instance->lists->tables, instance->lists->pool, &memory->state, &memory->inputs, &memory->outputs);
     }
+    restore_rounding(rounding);
     give_notices(instance);
     return fmi2OK;
 }

@@ -18,6 +18,7 @@ typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 
 /* The variables that the kernel does not know. */
 typedef struct {
     double cycle_time;
+    int32_t largest_step;  /* in cycles */
     bool reload;
     char update_path[PATH_LENGTH];
 } Controls;
@@ -41,7 +42,7 @@ typedef struct {
     char own_path[PATH_LENGTH];  /* of the image that belongs to this FMU; "": it is in the sources */
     bool logging;
     unsigned categories;  /* bit k: category k of axcomp_log_categories */
-    Lists *lists;         /* in force; all that were ever read hang behind `first` */
+    Lists *lists;         /* in force; those that a state may come back to hang behind `first` */
     Lists *waiting;       /* read by `reload`, for the next step; NULL: none */
     Lists *first;
     Memory memory;
@@ -68,6 +69,12 @@ void axcomp_watch_reload(Instance *instance, bool path_set);
 
 /* The instance's lists with an identity, NULL if it has none. */
 Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
+
+/* Note that a state in memory refers to lists (`by` 1), or no longer does (-1). */
+void axcomp_hold_lists(Instance *instance, uint32_t identity, int by);
+
+/* Whether bytes that came from outside are a memory that belongs to lists: every index in it means something. */
+bool axcomp_memory_fits(const Lists *lists, const Memory *memory);
 
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);

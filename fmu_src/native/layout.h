@@ -6,6 +6,8 @@
 #define AXCOMP_ON_INSTANT 0.01  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX 1000.0  /* s; cycle times are shorter */
 
+enum { AXCOMP_LARGEST_STEP = 10000000 }; /* cycles of a communication step, unless the host says more */
+
 enum { MACHINE_BLOCK = 0, AXIS_BLOCK = 1, VOLUMETRIC_BLOCK = 33 };
 
 #endif

@@ -21,6 +21,17 @@ typedef struct {
     Memory memory;
 } Saved;
 
+/* Note that a state refers to its lists (`by` 1), or no longer does (-1); a new one has none. */
+static void hold_lists_of(Instance *instance, const Saved *saved, int by)
+{
+    if (saved->size != 0) {
+        axcomp_hold_lists(instance, saved->lists, by);
+        if (saved->waits != 0) {
+            axcomp_hold_lists(instance, saved->waiting, by);
+        }
+    }
+}
+
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2FMUstate *state)
 {
     Instance *instance = axcomp_given((Instance *)component, state, "fmi2GetFMUstate");
@@ -35,11 +46,13 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
         return axcomp_say(instance, fmi2Error, "fmi2GetFMUstate: there is no memory for the state");
     }
     memcpy(saved->magic, STATE_MAGIC, sizeof saved->magic);
+    hold_lists_of(instance, saved, -1);
     saved->layout = AXCOMP_LAYOUT;
     saved->size = (uint32_t)sizeof saved->memory;
     saved->lists = instance->lists->identity;
     saved->waits = instance->waiting != NULL;
     saved->waiting = instance->waiting != NULL ? instance->waiting->identity : 0;
+    hold_lists_of(instance, saved, 1);
     saved->check = 0;
     memcpy(&saved->memory, &instance->memory, sizeof saved->memory);
     return fmi2OK;
@@ -77,6 +90,9 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     if (!has_lists(instance, saved)) {
         return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
     }
+    if (!axcomp_memory_fits(axcomp_lists_with(instance, saved->lists), &saved->memory)) {
+        return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state has numbers that no run leads to");
+    }
     memcpy(&instance->memory, &saved->memory, sizeof instance->memory);
     instance->lists = axcomp_lists_with(instance, saved->lists);
     instance->waiting = saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL;
@@ -89,7 +105,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2FreeFMUstate)(fmi2Component component, fmi2
     if (component == NULL) {
         return fmi2Error;
     }
-    if (state != NULL) {
+    if (state != NULL && *state != NULL) {
+        hold_lists_of((Instance *)component, (const Saved *)*state, -1);
         free(*state);
         *state = NULL;
     }
@@ -132,7 +149,11 @@ static const char *complaint_about(const Instance *instance, const Saved *saved)
     if (check_of(saved) != saved->check) {
         return "the state has been altered";
     }
-    return has_lists(instance, saved) ? NULL : "the state belongs to other lists";
+    const Lists *lists = has_lists(instance, saved) ? axcomp_lists_with(instance, saved->lists) : NULL;
+    if (lists == NULL) {
+        return "the state belongs to other lists";
+    }
+    return axcomp_memory_fits(lists, &saved->memory) ? NULL : "the state has numbers that no run leads to";
 }
 
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component component, const fmi2Byte bytes[], size_t size,
@@ -155,6 +176,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component componen
         free(saved);
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: %s", complaint);
     }
+    hold_lists_of(instance, saved, 1);
     *state = saved;
     return fmi2OK;
 }
