@@ -24,17 +24,18 @@ from axcomp.native import CompiledTables, compiled_kernel, run_compiled
 from axcomp.runtime import Runtime
 
 sys.path.append(str(Path(__file__).parents[1] / "reference"))
-import random_machines  # noqa: E402
+import random_machines
 
 CYCLES = 12
-WORDS = (
-    "0 1 -1 2 3 5 10 20 0.001 0.0001 1e-7 -0.5 100 359.9999 3600000 32767 65535 65536 2147483647 -2147483648 4294967296 "
-    "9223372036854775807 1e19 1e300 -1e300 1e-300 nan inf 0x10 1,5 TRUE FALSE abc ACHSTYP_ROTATOR GRID SCATTER PATH AUTO "
-    'XYZ CXYZ XXYZ "" "a ( 1..2 + - 1_000 ² … 00000000000000000001'
-).split()  # fmt: skip
+_WRITTEN = """
+0 1 -1 2 3 5 10 20 0.001 0.0001 1e-7 -0.5 100 359.9999 3600000 32767 65535 65536 2147483647 -2147483648 4294967296
+9223372036854775807 1e19 1e300 -1e300 1e-300 nan inf 0x10 1,5 TRUE FALSE abc ACHSTYP_ROTATOR GRID SCATTER PATH AUTO
+XYZ CXYZ XXYZ "" "a ( 1..2 + - 1_000 ² … 00000000000000000001 ..\\x /x
+"""
+WORDS = _WRITTEN.split()
 
 
-class Failure(AssertionError):
+class FoundError(AssertionError):
     """A case that shows a defect."""
 
 
@@ -121,7 +122,7 @@ def _value(parameter: Parameter | None, source: random.Random) -> str:
 
 
 def try_case(case: int) -> str:
-    """Try one case; return ``faultless``, ``errors`` or ``no axis``; Failure or whatever else is raised: a defect."""
+    """Try one case; return ``faultless``, ``errors`` or ``no axis``. Whatever is raised is a defect."""
     documents = documents_of(case)
     reading = read_machine("hochlauf.lis", documents=documents)
     errors = sum(finding.severity.value == "error" for finding in reading.findings)
@@ -130,7 +131,7 @@ def try_case(case: int) -> str:
     runtime = Runtime(reading.machine)
     tables, pool = runtime.tables, runtime.pool
     if not tables_fit(tables, pool, len(pool)):
-        raise Failure("the kernel refuses its own tables")
+        raise FoundError("the kernel refuses its own tables")
     if case % 20 == 0:
         _pack(reading)
     if case % 4 == 0:
@@ -143,7 +144,7 @@ def _pack(reading: Reading) -> None:
     start, files = packed_lists(reading)
     again = read_machine(start, documents=[Document(name, data) for name, data in files.items()])
     if again.machine != reading.machine:
-        raise Failure("the packed lists are another machine")
+        raise FoundError("the packed lists are another machine")
 
 
 def _compare(one: Runtime, case: int) -> None:
@@ -165,7 +166,7 @@ def _compare(one: Runtime, case: int) -> None:
             setattr(one.inputs.axis[variable.axis or 0], variable.field, value)
         one.cycle()
     if one.save() != two.save():
-        raise Failure("Python and C have come to different states")
+        raise FoundError("Python and C have come to different states")
 
 
 def cases(first: int) -> Iterator[int]:

@@ -18,13 +18,14 @@ from axcomp.runtime import compile_tables
 from axcomp.saving import write_whole
 
 sys.path.append(str(Path(__file__).parents[1] / "reference"))
-import random_machines  # noqa: E402
+import random_machines
 
 HERE = Path(__file__).parent
-FLAGS = (
-    "-std=gnu99 -O2 -g -ffp-contract=off -fsanitize=address,undefined,float-cast-overflow,bounds "
-    "-fno-sanitize=float-divide-by-zero -fno-sanitize-recover=all -fno-omit-frame-pointer"
-).split()
+_FLAGS = """
+-std=gnu99 -O2 -g -ffp-contract=off -fsanitize=address,undefined,float-cast-overflow,bounds
+-fno-sanitize=float-divide-by-zero -fno-sanitize-recover=all -fno-omit-frame-pointer
+"""
+FLAGS = _FLAGS.split()
 GUID = "{fuzz}"
 
 
