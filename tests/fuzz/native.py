@@ -22,7 +22,7 @@ import random_machines
 
 HERE = Path(__file__).parent
 _FLAGS = """
--std=gnu99 -O2 -g -ffp-contract=off -fsanitize=address,undefined,float-cast-overflow,bounds
+-std=gnu99 -O1 -g -ffp-contract=off -fsanitize=address,undefined,float-cast-overflow,bounds
 -fno-sanitize=float-divide-by-zero -fno-sanitize-recover=all -fno-omit-frame-pointer
 """
 FLAGS = _FLAGS.split()
