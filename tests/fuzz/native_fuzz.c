@@ -90,12 +90,28 @@ static int32_t odd_int(void)
     return numbers[random_below(sizeof numbers / sizeof numbers[0])];
 }
 
+/* Choose a place, mostly near bytes that are not 0: most of the records is room that a machine does not use. */
+static size_t place_in(const unsigned char *data, size_t size)
+{
+    size_t at = random_below((unsigned)size);
+    for (int k = 0; k < 30 && random_below(8) != 0; k++) {
+        size_t begin = at & ~(size_t)7, end = begin + 8 < size ? begin + 8 : size;
+        for (size_t i = begin; i < end; i++) {
+            if (data[i] != 0) {
+                return at;
+            }
+        }
+        at = random_below((unsigned)size);
+    }
+    return at;
+}
+
 /* Alter some places of bytes that hold records. */
 static void alter(unsigned char *data, size_t size)
 {
     int places = 1 + (int)random_below(random_below(4) == 0 ? 40 : 4);
     for (int k = 0; k < places && size >= 8; k++) {
-        size_t at = random_below((unsigned)size);
+        size_t at = place_in(data, size);
         switch (random_below(8)) {
         case 0:
             data[at] ^= (unsigned char)(1u << random_below(8));
@@ -142,7 +158,8 @@ static void alter(unsigned char *data, size_t size)
 /* Make an image that has the right length and checksum; to be freed. */
 static Bytes altered_image(void)
 {
-    const Bytes *seed = &seeds[random_below((unsigned)seed_count)];
+    /* The example machines come first. */
+    const Bytes *seed = &seeds[random_below(random_below(2) && seed_count > 4 ? 4 : (unsigned)seed_count)];
     Bytes image = {(unsigned char *)malloc(seed->size + 4096), seed->size};
     memcpy(image.data, seed->data, seed->size);
     ImageHeader header;
@@ -156,9 +173,15 @@ static Bytes altered_image(void)
     }
     size_t body = offsetof(ImageHeader, check) + sizeof header.check;
     /* Tables are small beside their numbers: they get as many of the alterations. */
-    size_t tables = sizeof header + header.axes * sizeof(AxisTable) + header.volumetrics * sizeof(VolumetricTable);
-    if (random_below(3) != 0 && tables < image.size) {
-        alter(image.data + sizeof header, tables - sizeof header);
+    size_t axes = sizeof header + header.axes * sizeof(AxisTable);
+    size_t tables = axes + header.volumetrics * sizeof(VolumetricTable);
+    if (random_below(3) == 0 && header.volumetrics > 0) {
+        size_t one = axes + random_below(header.volumetrics) * sizeof(VolumetricTable);
+        size_t blocks = offsetof(VolumetricTable, block);
+        alter(image.data + one, random_below(2) ? blocks : blocks + 4 * sizeof(ErrorBlock));
+    } else if (random_below(3) != 0) {
+        size_t one = sizeof header + random_below(header.axes) * sizeof(AxisTable);
+        alter(image.data + one, sizeof(AxisTable));
     } else if (random_below(2)) {
         alter(image.data + body, image.size - body);
     } else if (tables < image.size) {
