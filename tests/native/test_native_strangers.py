@@ -45,17 +45,21 @@ def offset_in(cls: Any, path: str) -> tuple[int, Any]:
         name, _, index = part.partition("[")
         field = getattr(structure, name)
         at += field.offset
-        structure = dict((f[0], f[1]) for f in structure._fields_)[name]
+        structure = {one[0]: one[1] for one in structure._fields_}[name]
         if index:
             structure = structure._type_
             at += int(index[:-1]) * ctypes.sizeof(structure)
     return at, structure
 
 
+LARGEST = struct.pack("<i", 2**31 - 1)
 FORGERIES: dict[str, tuple[str, bytes]] = {
     "a delay line that is written before its begin": ("axis[0].compensation.friction.head", struct.pack("<i", -561)),
     "one that is written behind its end": ("axis[0].compensation.friction.head", struct.pack("<i", 249)),
-    "a look-ahead that goes back for ever": ("axis[0].compensation.friction.since_reversal", struct.pack("<i", 2**31 - 1)),
+    "a look-ahead that goes back for ever": (
+        "axis[0].compensation.friction.since_reversal",
+        struct.pack("<i", 2**31 - 1),
+    ),
     "a search that goes on elsewhere": ("axis[0].compensation.leadscrew.lookup.interval", struct.pack("<i", 10**6)),
     "one before the table": ("axis[0].compensation.friction.lookup.interval", struct.pack("<i", -1)),
     "a reversal beyond its cycles": ("axis[0].compensation.leadscrew.reversal_step", struct.pack("<i", 21)),
