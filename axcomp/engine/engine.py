@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from ..lists import Finding, TypeName, read_machine
 from ..model import CYCLE_TIME, Machine
 from ..native import CompiledTables, compiled_kernel, run_compiled
 from ..runtime import Runtime
+from ..saving import write_whole
 from .completion import completed
 from .nc_control import NcControl
 from .nc_scanner import NcError
@@ -58,7 +58,7 @@ class Result:
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write time and all variables as CSV that reads back to the same bits."""
-        Path(path).write_text("".join(f"{line}\n" for line in self.csv_lines()), encoding="utf-8")
+        write_whole(path, "".join(f"{line}\n" for line in self.csv_lines()))
 
     def csv_lines(self) -> Iterator[str]:
         """Yield the lines that ``to_csv`` writes."""
@@ -104,17 +104,18 @@ class Engine:
         cycle_time: float = CYCLE_TIME,
         naming: Naming = "structured",
         axis_type: TypeName | None = None,
+        allow_outside: Sequence[str | os.PathLike[str]] = (),
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
         lists = None
         if not isinstance(machine, Machine):
             lists = machine
-            reading = read_machine(machine, axis_type=axis_type)
+            reading = read_machine(machine, axis_type=axis_type, allow_outside=allow_outside)
             machine, self.findings = reading.machine, tuple(reading.findings)
         self.machine = machine
         self.runtime = Runtime(machine, cycle_time)
         self._compiled: CompiledTables | None = None
-        self.nc = NcControl(self.runtime, lists)
+        self.nc = NcControl(self.runtime, lists, allow_outside)
         self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._slot(v) is not None)
         self._by_name = by_name(self.variables)
         self._slots: dict[str, Slot] = {}

@@ -31,8 +31,8 @@ if TYPE_CHECKING:
         write_image as write_image,
     )
     from .package import package_axcomp as package_axcomp, write_python_fmu as write_python_fmu
-    from .packed_interface import Interface as Interface
-    from .packing import FOLDER as FOLDER, packed_lists as packed_lists
+    from .packed_interface import FOLDER as FOLDER, Interface as Interface
+    from .packing import packed_lists as packed_lists
     from .saved import MAGIC as MAGIC
     from .sources import needed_files as needed_files, renamed_sources as renamed_sources
 else:
@@ -46,8 +46,8 @@ else:
         embedded="HEADERS SOURCES",
         native_package="IMAGE NoCompilerError package_native write_image",
         package="package_axcomp write_python_fmu",
-        packed_interface="Interface",
-        packing="FOLDER packed_lists",
+        packed_interface="FOLDER Interface",
+        packing="packed_lists",
         saved="MAGIC",
         sources="needed_files renamed_sources",
     )

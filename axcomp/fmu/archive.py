@@ -9,10 +9,15 @@ import os
 import subprocess
 import uuid
 import zipfile
+import zlib
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
+
+from ..lists import open_regular
+from ..native import MAGIC
+from ..saving import write_whole
 
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every entry: the earliest that ZIP knows."""
@@ -23,6 +28,12 @@ INSTALLED = "946684800"
 LEVEL = 6
 """Of the compression: 9 takes four times as long and saves 5 %."""
 UNIX = 3
+_MARKS = {"modelDescription.xml": b'generationTool="axcomp', "docProps/core.xml": b">axcomp</dc:creator>"}
+"""What axcomp puts into the archives that it writes, an FMU and a workbook."""
+_EDITED = b"lastModifiedBy"
+"""What others put into a workbook that they have saved."""
+_IMAGE = MAGIC[:-1]
+_PART_MAX = 100_000
 MODE = 0o100644 << 16
 
 
@@ -81,15 +92,26 @@ def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
     write_file(output, packed.getvalue())
 
 
+def is_own(path: Path) -> bool:
+    """Whether a file was written by axcomp: an FMU, an image, or a diagnosis; OSError if it cannot be read."""
+    with open_regular(path) as file:
+        if file.read(len(_IMAGE)) == _IMAGE:
+            return True
+        try:
+            with zipfile.ZipFile(file) as archive:
+                name = next((name for name in _MARKS if name in archive.namelist()), "")
+                text = archive.open(name).read(_PART_MAX) if name else b""
+        except (zipfile.BadZipFile, ValueError, NotImplementedError, RuntimeError, zlib.error):
+            return False
+    return bool(name) and _MARKS[name] in text and _EDITED not in text
+
+
 def write_file(output: Path, data: bytes) -> None:
-    """Write a file and its folders; BuildError if that fails: one that was there before stays as it is then."""
-    unfinished = output.with_name(f"{output.name}.{os.getpid()}.part")
+    """Write a file and its folders; BuildError if that fails, or another's file is there: that stays as it is then."""
     try:
+        if output.is_file() and not is_own(output):
+            raise BuildError(f"{output} is there and was not written by axcomp; it stays as it is.")
         output.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(data)
-        unfinished.replace(output)
+        write_whole(output, data)
     except OSError as error:
         raise BuildError(f"{output} cannot be written: {error.strerror or error}") from None
-    finally:
-        with contextlib.suppress(OSError):
-            unfinished.unlink(missing_ok=True)

@@ -8,7 +8,7 @@ from typing import Literal
 
 from ..kernel import Inputs, Outputs
 from ..kinds import kinds_of
-from ..model import COMPENSATIONS_MAX, CYCLE_TIME, Axis, Machine, Volumetric
+from ..model import COMPENSATIONS_MAX, CYCLE_TIME, LARGEST_STEP, Axis, Machine, Volumetric
 from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -36,6 +36,7 @@ class Controls:
     """The variables that the kernel does not know."""
 
     cycle_time: float = CYCLE_TIME
+    largest_step: int = LARGEST_STEP
     reload: bool = False
     update_path: str = ""
 
@@ -54,7 +55,7 @@ def variables_of(
     cycle_time : float
         Start value of the parameter of that name, s.
     types : str
-        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, for importers that take all as Real.
+        ``own``, or ``real``: Booleans and Integers are Real and Strings are left out, where importers know only Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
     every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))

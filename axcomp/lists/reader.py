@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -50,6 +50,8 @@ class Reading:
         What was said of axes without axis lists.
     inner_findings : tuple of Finding
         The same findings; lists that stand in another file are named themselves, and their own lines counted.
+    allow_outside : tuple of Path
+        Folders that names in the lists may lead into besides that of the machine.
     """
 
     machine: Machine
@@ -62,6 +64,7 @@ class Reading:
     _compensation_lists: Mapping[int, Document] = field(repr=False)
     axis_type: TypeName | None = None
     inner_findings: tuple[Finding, ...] = field(default=(), repr=False)
+    allow_outside: tuple[Path, ...] = ()
 
     @property
     def name(self) -> str:
@@ -81,7 +84,9 @@ class Reading:
 
     def again(self) -> Reading:
         """Read the documents as they are now; those that have not been changed since are not parsed again."""
-        return read_machine(self.path, documents=self.documents.values(), axis_type=self.axis_type)
+        return read_machine(
+            self.path, documents=self.documents.values(), axis_type=self.axis_type, allow_outside=self.allow_outside
+        )
 
     def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
         """Return findings about these lists with the columns of the entries they are about."""
@@ -98,6 +103,7 @@ def read_machine(
     documents: Iterable[Document] | None = None,
     beside_disk: bool = False,
     axis_type: TypeName | None = None,
+    allow_outside: Iterable[str | PathLike[str]] = (),
 ) -> Reading:
     """Read the lists of a machine.
 
@@ -117,6 +123,8 @@ def read_machine(
     axis_type : str, optional
         ``rotary`` or ``modulo``: without any axis list, of the axes that have compensation lists. All others, and all
         without it, are translatory.
+    allow_outside : iterable of path
+        Folders that names in the lists may lead into; else only the folder of the machine.
 
     Raises
     ------
@@ -124,8 +132,9 @@ def read_machine(
         In strict mode, with all findings of severity error.
     """
     findings = Findings()
-    reader = _MachineReader(findings, Files(findings, documents, beside_disk), axis_type)
-    reading = reader.read(Path(path))
+    allowed = tuple(map(Path, allow_outside))
+    reader = _MachineReader(findings, Files(findings, documents, beside_disk, allowed), axis_type)
+    reading = replace(reader.read(Path(path)), allow_outside=allowed)
     errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
         raise ListError(errors)
@@ -133,7 +142,7 @@ def read_machine(
 
 
 def reread_volumetric(
-    path: str | PathLike[str], index: int, files: Mapping[int, str]
+    path: str | PathLike[str], index: int, files: Mapping[int, str], allow_outside: Iterable[str | PathLike[str]] = ()
 ) -> tuple[Volumetric | None, tuple[Finding, ...]]:
     """Read one volumetric compensation of a machine again.
 
@@ -145,6 +154,8 @@ def reread_volumetric(
         Of the compensation.
     files : mapping of int to str
         Parameter files to be read instead of those the list names, by their index.
+    allow_outside : iterable of path
+        As for ``read_machine``.
 
     Returns
     -------
@@ -154,10 +165,11 @@ def reread_volumetric(
         What there is to say about this compensation.
     """
     findings, others = Findings(), Findings()
-    start = _MachineReader(others, Files(others)).start(Path(path))
+    allowed = tuple(map(Path, allow_outside))
+    start = _MachineReader(others, Files(others, allowed=allowed)).start(Path(path))
     if start is None:
         return None, ()
-    read = Files(findings)
+    read = Files(findings, allowed=allowed)
     volumetric = read_one(index, start.lists, read, start.axes, findings, files)
     return volumetric, outside(located(findings.all(), read.documents), read.documents)
 
@@ -365,7 +377,8 @@ class _MachineReader:
 
     @staticmethod
     def _note_inactive(kind: Kind[Any], source: TableReader) -> None:
-        name = next(name for name in kind.columns if source.values.cells(name))
+        # There may be no more of a table than its size.
+        name = next(name for name in (*kind.columns, *kind.sizes) if source.values.cells(name))
         entry = kind.activator.name
         message = f"There is a {kind.name} table, but {entry} of axis {source.axis.number} is 0: it does not act."
         source.note(kind.inactive_code, name, message, *min(source.values.cells(name)))

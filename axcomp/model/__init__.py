@@ -6,7 +6,18 @@ from .companions import docs, fmu_sources, licence, machine_path, models
 from .curve import Curve
 from .delaunay import Triangulation, triangulate, width
 from .grid import Grid, Scatter
-from .machine import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, AxisType, Compensation, Machine, ModuloRange
+from .machine import (
+    AXES_MAX,
+    CYCLE_TIME,
+    CYCLE_TIME_MAX,
+    LARGEST_STEP,
+    SHORTEST_RANGE,
+    Axis,
+    AxisType,
+    Compensation,
+    Machine,
+    ModuloRange,
+)
 from .quantity import Quantity, Shown, shown, symbol
 from .volumetric import (
     AXIS_NUMBERS,
@@ -53,6 +64,7 @@ __all__ = [
     "ERRORS",
     "FILES_MAX",
     "FULL_TURN",
+    "LARGEST_STEP",
     "LENGTH_MAX",
     "LETTERS",
     "LINEAR",
@@ -61,6 +73,7 @@ __all__ = [
     "OFFSETS",
     "PARAMETERS",
     "ROTARY",
+    "SHORTEST_RANGE",
     "TOOL_ORIENTATION",
     "TOOL_POSITION",
     "UNIT_TOLERANCE",

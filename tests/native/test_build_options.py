@@ -112,7 +112,9 @@ def test_a_real_switches_and_reloads(native_fmu: Path, lists: Path, tmp_path: Pa
     write_image(tmp_path / "other", image)
     update = image if runtime == "native" else tmp_path / "other"
     fmu = built(tmp_path, lists, "--types", "real", "--runtime", runtime)
-    *switched, error, change = in_child(switch_as_real, fmu, str(update), "tables.bin" if runtime == "native" else "machine")
+    *switched, error, change = in_child(
+        switch_as_real, fmu, str(update), "tables.bin" if runtime == "native" else "machine"
+    )
     largest = float(2**31 - 1)
     assert switched == [
         (0.0, 0.0, 0.0),
