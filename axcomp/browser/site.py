@@ -19,7 +19,7 @@ import numpy as np
 
 from .. import __version__
 from ..engine import Engine
-from ..fmu import write_fmu
+from ..fmu import archive_of
 from ..interface import with_causality
 from ..lists import read_machine
 from ..model import models
@@ -38,7 +38,7 @@ CYCLES = 20_000
 CHUNK = 10_000
 ROOMS = (
     *("analysis", "browser", "engine", "fmu", "interface", "kernel", "kinds", "lint", "lists", "model", "native"),
-    "runtime",
+    *("runtime", "saving"),
 )
 """What the page loads something of."""
 MARK = "site.json"
@@ -88,7 +88,7 @@ def build_site(output: Path, *, pyodide: Path | None = None, cycles: int = CYCLE
     for path in sorted(_STATIC.iterdir()):
         if path.suffix in {".html", ".js", ".css", ".svg"}:
             write_whole(output / path.name, path.read_bytes())
-    write_fmu(output / "axcomp.zip", _package_files())
+    write_whole(output / "axcomp.zip", archive_of(_package_files()))
     write_whole(output / "kernel.wasm", kernel)
     examples = {name: _lists_of(models() / name) for name in EXAMPLES}
     write_whole(output / "examples.json", json.dumps(examples))

@@ -173,7 +173,7 @@ def _tag(kind: str, name: str) -> str:
 
 
 def _structure(parts: Sequence[Part], connections: Connections, duration: float) -> bytes:
-    root = Element(_tag("ssd", "SystemStructureDescription"), version="1.0", name="machine")
+    root = Element(_tag("ssd", "SystemStructureDescription"), version="1.0", name="machine", generationTool="axcomp")
     system = SubElement(root, _tag("ssd", "System"), name="machine")
     bindings = SubElement(system, _tag("ssd", "ParameterBindings"))
     SubElement(bindings, _tag("ssd", "ParameterBinding"), source=PARAMETERS)

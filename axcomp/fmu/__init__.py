@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from ..native import HEADERS as HEADERS, SOURCES as SOURCES
     from .archive import (
         BuildError as BuildError,
+        archive_of as archive_of,
         content_guid as content_guid,
         file_bytes as file_bytes,
         generation_date as generation_date,
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 else:
     __all__, __getattr__, __dir__ = face(
         __name__,
-        archive="BuildError content_guid file_bytes generation_date write_fmu",
+        archive="BuildError archive_of content_guid file_bytes generation_date write_fmu",
         content="Built NAME PACKAGE Version",
         description="Description add_units document model_description",
         documentation="accompanying",

@@ -28,8 +28,12 @@ INSTALLED = "946684800"
 LEVEL = 6
 """Of the compression: 9 takes four times as long and saves 5 %."""
 UNIX = 3
-_MARKS = {"modelDescription.xml": b'generationTool="axcomp', "docProps/core.xml": b">axcomp</dc:creator>"}
-"""What axcomp puts into the archives that it writes, an FMU and a workbook."""
+_MARKS = {
+    "modelDescription.xml": b'generationTool="axcomp',
+    "SystemStructure.ssd": b'generationTool="axcomp',
+    "docProps/core.xml": b">axcomp</dc:creator>",
+}
+"""What axcomp puts into the archives that it writes, an FMU, a system and a workbook."""
 _EDITED = b"lastModifiedBy"
 """What others put into a workbook that they have saved."""
 _IMAGE = MAGIC[:-1]
@@ -80,7 +84,12 @@ def _date_of_sources() -> str:
 
 
 def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
-    """Write an archive as ``write_file`` does; the model description comes first."""
+    """Write an archive as ``write_file`` does."""
+    write_file(output, archive_of(files))
+
+
+def archive_of(files: Mapping[str, bytes]) -> bytes:
+    """Return an archive of files; the model description comes first."""
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as archive:
         for name in sorted(files, key=lambda name: (name != "modelDescription.xml", name)):
@@ -89,11 +98,11 @@ def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
             entry.create_system = UNIX
             entry.external_attr = MODE
             archive.writestr(entry, files[name], compresslevel=LEVEL)
-    write_file(output, packed.getvalue())
+    return packed.getvalue()
 
 
 def is_own(path: Path) -> bool:
-    """Whether a file was written by axcomp: an FMU, an image, or a diagnosis; OSError if it cannot be read."""
+    """Whether axcomp has written a file: an FMU, a system, an image, a diagnosis; OSError if it cannot be read."""
     with open_regular(path) as file:
         if file.read(len(_IMAGE)) == _IMAGE:
             return True

@@ -255,9 +255,9 @@ static void give_inputs(const Tables *tables, Inputs *inputs)
     inputs->derive_motion = random_below(4) == 0;
     inputs->tool_length = any_number();
     for (int k = 0; k < tables->volumetrics; k++) {
-        inputs->volumetric[k].enable = random_below(4) != 0;
+        inputs->volumetric[k].wanted = any_switch();
         inputs->volumetric[k].no_move = random_below(2) != 0;
-        inputs->volumetric[k].factor_x = any_number();
+        inputs->volumetric[k].reduction_x = any_number();
     }
 }
 
@@ -509,8 +509,10 @@ static void try_calls(void)
                 fmi2Byte *data = (fmi2Byte *)malloc(size);
                 fmi2SerializeFMUstate(component, *one, data, size);
                 fmi2FMUstate other = NULL;
-                if (fmi2DeSerializeFMUstate(component, data, size, &other) == fmi2OK) {
-                    fmi2SetFMUstate(component, other);
+                if (fmi2DeSerializeFMUstate(component, data, size, &other) != fmi2OK
+                    || fmi2SetFMUstate(component, other) != fmi2OK) {
+                    fprintf(stderr, "a state of the FMU's own is refused\n");
+                    abort();
                 }
                 fmi2FreeFMUstate(component, &other);
                 free(data);
