@@ -19,11 +19,12 @@ import numpy as np
 
 from .. import __version__
 from ..engine import Engine
-from ..fmu import write_fmu
+from ..fmu import archive_of
 from ..interface import with_causality
 from ..lists import read_machine
 from ..model import models
 from ..native import compiled_kernel, own_platform, wasm_kernel
+from ..saving import write_whole
 from .course import columns_of, digest, drawn
 from .view import kernel_of
 
@@ -37,7 +38,7 @@ CYCLES = 20_000
 CHUNK = 10_000
 ROOMS = (
     *("analysis", "browser", "engine", "fmu", "interface", "kernel", "kinds", "lint", "lists", "model", "native"),
-    "runtime",
+    *("runtime", "saving"),
 )
 """What the page loads something of."""
 MARK = "site.json"
@@ -81,17 +82,17 @@ def build_site(output: Path, *, pyodide: Path | None = None, cycles: int = CYCLE
             raise SiteError(f"{source} is not the npm package pyodide: {', '.join(absent)} is missing")
         (output / "pyodide").mkdir(parents=True, exist_ok=True)
         # Before anything else, so that a folder in which writing has failed can be written again.
-        (output / MARK).write_text(json.dumps({"axcomp": __version__, "pyodide": PYODIDE}), encoding="utf-8")
+        write_whole(output / MARK, json.dumps({"axcomp": __version__, "pyodide": PYODIDE}))
         for name in PARTS:
-            shutil.copyfile(source / name, output / "pyodide" / name)
+            write_whole(output / "pyodide" / name, (source / name).read_bytes())
     for path in sorted(_STATIC.iterdir()):
         if path.suffix in {".html", ".js", ".css", ".svg"}:
-            shutil.copyfile(path, output / path.name)
-    write_fmu(output / "axcomp.zip", _package_files())
-    (output / "kernel.wasm").write_bytes(kernel)
+            write_whole(output / path.name, path.read_bytes())
+    write_whole(output / "axcomp.zip", archive_of(_package_files()))
+    write_whole(output / "kernel.wasm", kernel)
     examples = {name: _lists_of(models() / name) for name in EXAMPLES}
-    (output / "examples.json").write_text(json.dumps(examples), encoding="utf-8")
-    (output / "proof.json").write_text(json.dumps(proof_of(cycles)), encoding="utf-8")
+    write_whole(output / "examples.json", json.dumps(examples))
+    write_whole(output / "proof.json", json.dumps(proof_of(cycles)))
 
 
 def proof_of(cycles: int) -> dict[str, Any]:

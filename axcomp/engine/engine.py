@@ -79,12 +79,13 @@ class Engine:
         cycle_time: float = CYCLE_TIME,
         naming: Naming = "structured",
         axis_type: TypeName | None = None,
+        allow_outside: Sequence[str | os.PathLike[str]] = (),
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
         lists = None
         if not isinstance(machine, Machine):
             lists = machine
-            reading = read_machine(machine, axis_type=axis_type)
+            reading = read_machine(machine, axis_type=axis_type, allow_outside=allow_outside)
             machine, self.findings = reading.machine, tuple(reading.findings)
             if not machine.axes:
                 raise ListError(self.findings)
@@ -92,7 +93,7 @@ class Engine:
         self.machine = machine
         kernel = compiled_kernel()
         self.runtime = Runtime(machine, cycle_time) if kernel is None else CompiledRuntime(machine, cycle_time, kernel)
-        self.nc = NcControl(self.runtime, lists)
+        self.nc = NcControl(self.runtime, lists, allow_outside)
         self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._slot(v) is not None)
         self._by_name = by_name(self.variables)
         self._slots: dict[str, Slot] = {}
