@@ -6,7 +6,14 @@ others are drawn each time.
 
 import os
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile("axcomp", deadline=None, derandomize="AXCOMP_RANDOM" not in os.environ)
 settings.load_profile("axcomp")
+
+
+@pytest.fixture(autouse=True)
+def _terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is printed does not depend on where the tests run."""
+    monkeypatch.setenv("COLUMNS", "200")

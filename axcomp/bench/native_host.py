@@ -14,6 +14,7 @@ from ..lists import read_machine
 from ..model import CYCLE_TIME, Machine, fmu_sources, models
 from ..native import LIBRARY_SOURCES, PLATFORMS, compile_library, compile_program, compiler_of, image_of, own_platform
 from ..runtime import compile_tables
+from ..saving import write_whole
 from .clock import Sample, ratio
 from .machines import machine_of
 
@@ -72,11 +73,11 @@ class NativeHost:
     def _through(self, library: Path, machine: Machine, batches: int) -> tuple[float, ...]:
         self._write_image(machine)
         plan = self._folder / "plan.txt"
-        plan.write_text(plan_of(machine), encoding="ascii")
+        write_whole(plan, plan_of(machine))
         return self._run("fmu", str(library), str(self._folder), GUID, str(plan), str(batches))
 
     def _write_image(self, machine: Machine) -> None:
-        (self._folder / IMAGE).write_bytes(image_of(compile_tables(machine), GUID))
+        write_whole(self._folder / IMAGE, image_of(compile_tables(machine), GUID))
 
     def _run(self, *arguments: str) -> tuple[float, ...]:
         result = subprocess.run([self._host, *arguments], capture_output=True, text=True, check=False)

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from .course import Column as Column, columns_of as columns_of, digest as digest, drawn as drawn
     from .site import (
         CYCLES as CYCLES,
+        PARTS as PARTS,
         PYODIDE as PYODIDE,
         SiteError as SiteError,
         build_site as build_site,
@@ -20,6 +21,6 @@ else:
     __all__, __getattr__, __dir__ = face(
         __name__,
         course="Column columns_of digest drawn",
-        site="CYCLES PYODIDE SiteError build_site proof_of",
+        site="CYCLES PARTS PYODIDE SiteError build_site proof_of",
         view="cyclic digest_of kernel_of look shown",
     )

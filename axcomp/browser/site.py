@@ -19,11 +19,12 @@ import numpy as np
 
 from .. import __version__
 from ..engine import Engine
-from ..fmu import write_fmu
+from ..fmu import archive_of
 from ..interface import with_causality
 from ..lists import read_machine
 from ..model import models
 from ..native import compiled_kernel, own_platform, wasm_kernel
+from ..saving import write_whole
 from .course import columns_of, digest, drawn
 from .view import kernel_of
 
@@ -31,13 +32,13 @@ PYODIDE = "314.0.8"
 """Version of the npm package ``pyodide`` that the page runs on."""
 PARTS = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json", "package.json")
 """Files of it that a browser loads, and the terms of its licence."""
-EXAMPLES = ("three_axis", "rotary_table", "warm_axis", "five_axis")
+EXAMPLES = ("three_axis", "rotary_table", "warm_axis", "five_axis", "manual_examples")
 CYCLES = 20_000
 """Of the proof, for each example."""
 CHUNK = 10_000
 ROOMS = (
     *("analysis", "browser", "engine", "fmu", "interface", "kernel", "kinds", "lint", "lists", "model", "native"),
-    "runtime",
+    *("runtime", "saving"),
 )
 """What the page loads something of."""
 MARK = "site.json"
@@ -81,17 +82,17 @@ def build_site(output: Path, *, pyodide: Path | None = None, cycles: int = CYCLE
             raise SiteError(f"{source} is not the npm package pyodide: {', '.join(absent)} is missing")
         (output / "pyodide").mkdir(parents=True, exist_ok=True)
         # Before anything else, so that a folder in which writing has failed can be written again.
-        (output / MARK).write_text(json.dumps({"axcomp": __version__, "pyodide": PYODIDE}), encoding="utf-8")
+        write_whole(output / MARK, json.dumps({"axcomp": __version__, "pyodide": PYODIDE}))
         for name in PARTS:
-            shutil.copyfile(source / name, output / "pyodide" / name)
+            write_whole(output / "pyodide" / name, (source / name).read_bytes())
     for path in sorted(_STATIC.iterdir()):
         if path.suffix in {".html", ".js", ".css", ".svg"}:
-            shutil.copyfile(path, output / path.name)
-    write_fmu(output / "axcomp.zip", _package_files())
-    (output / "kernel.wasm").write_bytes(kernel)
+            write_whole(output / path.name, path.read_bytes())
+    write_whole(output / "axcomp.zip", archive_of(_package_files()))
+    write_whole(output / "kernel.wasm", kernel)
     examples = {name: _lists_of(models() / name) for name in EXAMPLES}
-    (output / "examples.json").write_text(json.dumps(examples), encoding="utf-8")
-    (output / "proof.json").write_text(json.dumps(proof_of(cycles)), encoding="utf-8")
+    write_whole(output / "examples.json", json.dumps(examples))
+    write_whole(output / "proof.json", json.dumps(proof_of(cycles)))
 
 
 def proof_of(cycles: int) -> dict[str, Any]:

@@ -41,19 +41,19 @@ That sets ``do``: a function of the options → exit status. Only the module of 
 """
 
 EXTRA = {
-    "demo": "demo",
     "bench": "demo",
-    "measure": "measure",
+    "budget": "measure",
     "create": "measure",
+    "demo": "demo",
+    "diagnose": "tables",
     "fit": "measure",
-    "plan": "measure",
     "lsp": "lsp",
+    "measure": "measure",
+    "plan": "measure",
+    "replay": "plot",
+    "report": "measure",
     "show": "plot",
     "sweep": "sweep",
-    "budget": "measure",
-    "report": "measure",
-    "replay": "plot",
-    "diagnose": "tables",
 }
 """The extra without which a command does nothing."""
 
@@ -93,7 +93,7 @@ def _run(given: Sequence[str]) -> int:
     completed = os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []
     command = next(iter([*given, *completed]), "")
     absent = {extra for extra in EXTRA.values() if missing(EXTRAS[extra])}
-    lacking = [name for name, extra in EXTRA.items() if extra in absent]
+    lacking = [name for name in COMMANDS if EXTRA.get(name) in absent]
     if command in COMMANDS:
         _add(command, subparsers)
     else:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from ..analysis.diagnosis import write_named_diagnoses
 from ..fmu import NAME, BuildError, Built, NoCompilerError, Version, package_axcomp, package_native, write_image
@@ -13,8 +15,8 @@ from ..lists import Severity
 from ..model import CYCLE_TIME, machine_path, models
 from ..native import PLATFORMS
 from ..plant import package_plant
-from .axis_type import add_axis_type
 from .lists import STATUS_MAX
+from .reading_options import add_reading_options
 
 VERSIONS: tuple[Version, ...] = ("2.0", "3.0")
 
@@ -31,7 +33,7 @@ which are parameters, while the machine runs.
 --image writes the tables of the lists, which a running native FMU takes by its input reload; the exit status is then
 the number of errors in the lists, at most 100: such an image is written, and reload refuses it.
 
-A diagnosis file that a volumetric list names is written too, as axcomp diagnose does.
+Nothing that is there is replaced but what axcomp has written itself: an FMU, an image, a diagnosis file.
 
 examples:
   axcomp build
@@ -120,7 +122,11 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         action="store_true",
         help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
     )
-    add_axis_type(parser)
+    parser.add_argument("--verbose", action="store_true", help="name every file that is packed, and where it is from")
+    parser.add_argument(
+        "--diagnosis", action="store_true", help="write the diagnosis files that volumetric lists name, too"
+    )
+    add_reading_options(parser)
     parser.set_defaults(do=_do_build)
 
 
@@ -147,9 +153,12 @@ def _do_build(args: argparse.Namespace) -> int:
             print(f"note: {built.note}", file=sys.stderr)
         for line in _summary(built):
             print(line)
+        if args.verbose:
+            for line in _packed(built):
+                print(line)
         for other in others:
             print(f"{other.path.name}: the same for FMI 3.0")
-        for said in write_named_diagnoses(built.reading):
+        for said in write_named_diagnoses(built.reading) if args.diagnosis else ():
             if isinstance(said, Path):
                 print(said)
             else:
@@ -169,21 +178,20 @@ def _do_build(args: argparse.Namespace) -> int:
 
 def _build(args: argparse.Namespace, lists: Path) -> list[Built]:
     """Return what was built: an FMU for each version of FMI, or an image."""
+    reading: dict[str, Any] = {
+        "cycle_time": args.cycle_time,
+        "axis_type": args.axis_type,
+        "allow_outside": args.allow_outside,
+    }
     if args.image is not None:
-        return [write_image(lists, args.image, cycle_time=args.cycle_time, axis_type=args.axis_type)]
+        return [write_image(lists, args.image, **reading)]
     if args.ssp is not None:
         from ..demo import write_ssp
 
-        built = write_ssp(
-            lists,
-            args.ssp,
-            cycle_time=args.cycle_time,
-            platforms=args.platforms,
-            axis_type=args.axis_type,
-            external_tool=not args.no_external_tool,
-        )
-        return [built]
+        external_tool = not args.no_external_tool
+        return [write_ssp(lists, args.ssp, platforms=args.platforms, external_tool=external_tool, **reading)]
     output = args.output or Path.cwd()
+    reading |= {"naming": args.naming, "name": args.name, "types": args.types}
     if args.runtime == "native":
         versions = [version for version in VERSIONS if version in args.fmi]
         if output.is_dir():
@@ -192,14 +200,10 @@ def _build(args: argparse.Namespace, lists: Path) -> list[Built]:
             package_native(
                 lists,
                 output.with_stem(f"{output.stem}_fmi3") if version != versions[0] else output,
-                cycle_time=args.cycle_time,
-                naming=args.naming,
                 platforms=args.platforms,
-                axis_type=args.axis_type,
-                name=args.name,
-                types=args.types,
                 with_lists=not args.no_lists,
                 fmi=version,
+                **reading,
             )
             for version in versions
         ]
@@ -209,17 +213,19 @@ def _build(args: argparse.Namespace, lists: Path) -> list[Built]:
         raise BuildError("--platforms is for the native FMU: pythonfmu brings libraries of its own.")
     if args.no_lists:
         raise BuildError("--no-lists is for the native FMU: the one that runs in Python reads the lists.")
-    built = package_axcomp(
-        lists,
-        output,
-        cycle_time=args.cycle_time,
-        naming=args.naming,
-        external_tool=not args.no_external_tool,
-        axis_type=args.axis_type,
-        name=args.name,
-        types=args.types,
-    )
-    return [built]
+    return [package_axcomp(lists, output, external_tool=not args.no_external_tool, **reading)]
+
+
+def _packed(built: Built) -> Iterator[str]:
+    """Name every file in an FMU, those of the lists with where they are from; of an image the lists it is made of."""
+    sources = dict(zip(built.lists, built.reading.documents, strict=False))
+    if zipfile.is_zipfile(built.path):
+        with zipfile.ZipFile(built.path) as archive:
+            for name in archive.namelist():
+                source = sources.get(name.removeprefix("resources/"))
+                yield f"packed: {name}" + (f" from {source}" if source else "")
+    else:
+        yield from (f"read: {source}" for source in sources.values())
 
 
 def _summary(built: Built) -> Iterator[str]:

@@ -14,6 +14,7 @@ import numpy as np
 from ..fit import TcpDeviations, fit_of, plan_volumetric, rows_of
 from ..measurement import MeasurementError, joined
 from ..model import LETTERS, symbol
+from ..saving import write_whole
 
 _RANGE = re.compile(r"([XYZABC])=(-?[\d.]+)\.\.(-?[\d.]+)\Z", re.I)
 _KINDS = ("deviation", "point", "length", "displacement")
@@ -94,7 +95,7 @@ def _do_plan(args: argparse.Namespace) -> int:
     names, rows = rows_of(plan, target.volumetric.chain, args.kind)
     text = ",".join(names) + "\n" + "".join(",".join(f"{value:g}" for value in row) + "\n" for row in rows)
     if args.output is not None:
-        args.output.write_text(text, encoding="utf-8")
+        write_whole(args.output, text)
     states = {"so far": plan.before, "with these readings": plan.uncertainty, "with as many at random": plan.random}
     shown: dict[str, Any] = {
         name: {"median": float(np.median(one)), "largest": float(one.max())}

@@ -65,6 +65,7 @@ def write_ssp(
     platforms: Sequence[str] = (),
     axis_type: TypeName | None = None,
     external_tool: bool = True,
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the system of a machine whose folder has a ``plant.json``; a folder as output: ``machine.ssp`` in it.
 
@@ -81,7 +82,9 @@ def write_ssp(
     plant = by_name(plant_variables(model))
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        built = package_native(lists, folder, cycle_time=cycle_time, platforms=platforms, axis_type=axis_type)
+        built = package_native(
+            lists, folder, cycle_time=cycle_time, platforms=platforms, axis_type=axis_type, allow_outside=allow_outside
+        )
         parts = [
             Part(COMPENSATION, built.path, by_name(built.variables)),
             Part(PLANT, package_plant(model, folder, external_tool=external_tool), plant),
@@ -170,7 +173,7 @@ def _tag(kind: str, name: str) -> str:
 
 
 def _structure(parts: Sequence[Part], connections: Connections, duration: float) -> bytes:
-    root = Element(_tag("ssd", "SystemStructureDescription"), version="1.0", name="machine")
+    root = Element(_tag("ssd", "SystemStructureDescription"), version="1.0", name="machine", generationTool="axcomp")
     system = SubElement(root, _tag("ssd", "System"), name="machine")
     bindings = SubElement(system, _tag("ssd", "ParameterBindings"))
     SubElement(bindings, _tag("ssd", "ParameterBinding"), source=PARAMETERS)

@@ -79,12 +79,13 @@ class Engine:
         cycle_time: float = CYCLE_TIME,
         naming: Naming = "structured",
         axis_type: TypeName | None = None,
+        allow_outside: Sequence[str | os.PathLike[str]] = (),
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
         lists = None
         if not isinstance(machine, Machine):
             lists = machine
-            reading = read_machine(machine, axis_type=axis_type)
+            reading = read_machine(machine, axis_type=axis_type, allow_outside=allow_outside)
             machine, self.findings = reading.machine, tuple(reading.findings)
             if not machine.axes:
                 raise ListError(self.findings)
@@ -92,13 +93,14 @@ class Engine:
         self.machine = machine
         kernel = compiled_kernel()
         self.runtime = Runtime(machine, cycle_time) if kernel is None else CompiledRuntime(machine, cycle_time, kernel)
-        self.nc = NcControl(self.runtime, lists)
+        self.nc = NcControl(self.runtime, lists, allow_outside)
         self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._slot(v) is not None)
         self._by_name = by_name(self.variables)
         self._slots: dict[str, Slot] = {}
         self._bound: object = None
         self._said: set[str] = set()
         self._outputs = with_causality(self.variables, "output")
+        self._units = {v.name: v.unit for v in self._outputs if v.unit}
         self._complete: set[frozenset[str]] = set()
         self._rows: dict[tuple[str, ...], Row] = {}
         self._fields: dict[tuple[str, ...], Fields] = {}
@@ -212,8 +214,7 @@ class Engine:
         else:
             values, told = self._run_in_python(given, columns, blocks, cycles)
         named = {variable.name: column for variable, column in zip(self._outputs, values, strict=True)}
-        units = {v.name: v.unit for v in self._outputs if v.unit}
-        return Result(time, named, (*notices, *told, *self.runtime.notices()), units)
+        return Result(time, named, (*notices, *told, *self.runtime.notices()), self._units)
 
     @property
     def modulo(self) -> dict[str, float]:
@@ -240,7 +241,7 @@ class Engine:
         time = np.array([self.time])
         row = self._row_of(runtime, given)
         row.step(runtime, given)
-        return Result(time, row.columns(), (*self._unsaid(said), *runtime.notices()))
+        return Result(time, row.columns(), (*self._unsaid(said), *runtime.notices()), self._units)
 
     def _unsaid(self, said: Sequence[str]) -> list[str]:
         """Return what has not been said before."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from os import PathLike
 from typing import Any
 
@@ -33,6 +33,8 @@ class NcControl:
     runtime : Runtime
     lists : path or None
         Where ``UPDATE`` reads; None: there are no lists.
+    allow_outside : sequence of path
+        As in ``read_machine``.
 
     Attributes
     ----------
@@ -40,9 +42,12 @@ class NcControl:
         Called with the number of a volumetric compensation that was updated; what it returns is told, a sentence each.
     """
 
-    def __init__(self, runtime: Runtime, lists: str | PathLike[str] | None) -> None:
+    def __init__(
+        self, runtime: Runtime, lists: str | PathLike[str] | None, allow_outside: Sequence[str | PathLike[str]] = ()
+    ) -> None:
         self._runtime = runtime
         self._lists = lists
+        self._allow_outside = allow_outside
         self.on_update: Callable[[int], Iterable[str]] = lambda _: ()
         self._files: dict[tuple[int, int], str] = {}
         self._held: list[tuple[Any, str, Any, Any]] = []
@@ -187,7 +192,7 @@ class NcControl:
 
     def _update(self, command: VolumetricUpdate) -> Iterator[str]:
         files = {j: name for (i, j), name in self._files.items() if i == command.index}
-        volumetric, findings = reread_volumetric(self._lists or "", command.index, files)
+        volumetric, findings = reread_volumetric(self._lists or "", command.index, files, self._allow_outside)
         errors = [str(finding) for finding in findings if finding.severity is Severity.ERROR]
         if volumetric is None:
             what = f"volumetric compensation {command.index} keeps its old data"

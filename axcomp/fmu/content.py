@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -75,7 +75,7 @@ class Built(NamedTuple):
         return self.reading.machine
 
     def accompanying(self, *, with_tables: bool = True) -> dict[str, bytes]:
-        """Return documentation, licence, icon and terminals by their paths; without tables also without findings."""
+        """Return documentation, licence, icon and terminals by path; unless ``with_tables`` no findings either."""
         machine = self.machine if with_tables else None
         return accompanying(self.description, self.variables, machine, self.findings)
 
@@ -92,6 +92,7 @@ def read_content(
     axis_type: TypeName | None = None,
     name: str = NAME,
     types: Types = "own",
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Read and compile the lists of a machine; ``name``: of the model, an identifier of C.
 
@@ -102,7 +103,7 @@ def read_content(
     """
     if not _IDENTIFIER.fullmatch(name):
         raise BuildError(f"{name!r} is no model name: it takes letters, digits and _, and begins with no digit.")
-    reading = read_machine(lists, axis_type=axis_type)
+    reading = read_machine(lists, axis_type=axis_type, allow_outside=allow_outside)
     machine = reading.machine
     if not machine.axes:
         raise BuildError("\n".join([*map(str, reading.findings), f"{lists}: there is no axis in these lists."]))

@@ -53,6 +53,7 @@ def package_native(
     types: Types = "own",
     with_lists: bool = True,
     fmi: Version = "2.0",
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the FMU of a machine; a folder as output: a file of the model's name in it.
 
@@ -68,7 +69,7 @@ def package_native(
         ``structured`` or ``flat``.
     platforms : sequence of str
         Those of ``PLATFORMS`` that get a library; none: all of them.
-    axis_type : str or None
+    axis_type, allow_outside
         As in ``read_machine``.
     name : str
         Name and identifier of the model; all that is visible outside its sources begins with it.
@@ -87,7 +88,7 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type, name, types)
+    content = read_content(lists, cycle_time, naming, axis_type, name, types, allow_outside)
     files = {f"resources/{file}": data for file, data in content.lists.items()} if with_lists else {}
     libraries = _libraries(platforms)
     for platform, library in libraries.items():
@@ -125,6 +126,7 @@ def write_image(
     *,
     cycle_time: float = CYCLE_TIME,
     axis_type: TypeName | None = None,
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
 
@@ -135,7 +137,7 @@ def write_image(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, axis_type=axis_type)
+    content = read_content(lists, cycle_time, axis_type=axis_type, allow_outside=allow_outside)
     path = output_path(output, IMAGE)
     guid = _guid(content, lambda told, guid: model_description(told, content.variables, guid))
     write_file(path, image_of(content.compiled, guid, content.findings))

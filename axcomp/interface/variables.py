@@ -8,7 +8,7 @@ from typing import Literal
 
 from ..kernel import Inputs, Outputs
 from ..kinds import kinds_of
-from ..model import COMPENSATIONS_MAX, CYCLE_TIME, Axis, Machine, Volumetric
+from ..model import COMPENSATIONS_MAX, CYCLE_TIME, LARGEST_STEP, Axis, Machine, Volumetric
 from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -36,6 +36,7 @@ class Controls:
     """The variables that the kernel does not know."""
 
     cycle_time: float = CYCLE_TIME
+    largest_step: int = LARGEST_STEP
     reload: bool = False
     update_path: str = ""
 

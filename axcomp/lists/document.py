@@ -13,12 +13,12 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from ..kinds import DataType, ListKind, Parameter, key_of
+from ..saving import write_whole
 from .catalogue import SPELLINGS, parameter
 from .findings import Findings
 from .format import text_of
 from .grammar import Encoding, Entry, continued, decode, encoding_of, entries
 from .positions import DOS_END, INDEX, DocumentEntry, Position, detailed, with_value
-from .saving import write_whole
 from .values import ListValues, read_values
 
 _NEWLINES = re.compile(r"(\r\n|\r|\n)")

@@ -22,6 +22,8 @@ AXES_MAX = 32
 CYCLE_TIME = 0.001
 """Default cycle time of the position controller in s: no list names it."""
 
+LARGEST_STEP = 10_000_000
+"""Cycles that a communication step may have, unless the host allows more: a longer one would seem to hang."""
 CYCLE_TIME_MAX = 1e3
 """Cycle times are shorter, s."""
 
@@ -76,6 +78,10 @@ class Compensation:
 
 
 AnyCompensation = TypeVar("AnyCompensation", bound=Compensation)
+
+
+SHORTEST_RANGE = 1e-6
+"""Modulo ranges are longer, °."""
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from ..saving import write_whole
 from .universal import universal
 
 FLAGS = ("-std=c99", "-O3", "-ffp-contract=off", "-g0", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
@@ -102,7 +103,7 @@ def cross_compile(sources: Sequence[Path], output: Path, *, platform: str, flags
             one.parent.mkdir()
             compile_library(sources, one, compiler=zig(target), platform=platform, flags=flags)
             slices.append(one.read_bytes())
-    output.write_bytes(slices[0] if len(slices) == 1 else universal(slices))
+    write_whole(output, slices[0] if len(slices) == 1 else universal(slices))
 
 
 def compile_library(

@@ -27,7 +27,7 @@ from ..interface import (
 )
 from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_of
 from ..kinds import KIND_NAMES, KINDS
-from ..model import CYCLE_TIME_MAX
+from ..model import CYCLE_TIME_MAX, LARGEST_STEP
 from ..runtime import NO_COMMAND, ON_INSTANT
 from .records import GENERATED, parts_of, size_of
 
@@ -59,6 +59,8 @@ def layout_header() -> str:
 #define AXCOMP_VOLUMETRIC_BYTES {size_of(VolumetricTable)}u
 #define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
+
+enum {{ AXCOMP_LARGEST_STEP = {LARGEST_STEP} }}; /* cycles of a communication step, unless the host says more */
 
 enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK} }};
 /* Of FMI 3.0: the blocks of tables, and the independent variable. */

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from ..saving import write_all
 from .compiler import PLATFORMS, CompilerError, compile_wasm, cross_compile, has_cross_compiler
 from .prebuilt import FOLDER, MANIFEST, WASM, prebuilt_path
 from .sources import LIBRARY_SOURCES, WASM_SOURCES, source_path, sources_checksum
@@ -71,8 +72,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("".join(f"{name} is not what the sources give\n" for name in other), end="", file=sys.stderr)
         return 1 if other else 0
     FOLDER.mkdir(exist_ok=True)
+    write_all(files)
     for path, data in files.items():
-        path.write_bytes(data)
         print(f"{path.name}: {len(data)} bytes")
     return 0
 

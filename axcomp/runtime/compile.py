@@ -16,6 +16,7 @@ from ..model import (
     CYCLE_TIME_MAX,
     LETTERS,
     LINEAR,
+    SHORTEST_RANGE,
     Axis,
     AxisType,
     Compensation,
@@ -25,9 +26,6 @@ from ..model import (
 from .compile_volumetric import compile_volumetric
 
 __all__ = ["CompileError", "Compiled", "compile_tables", "error_model"]
-
-SHORTEST_RANGE = 1e-6
-"""Modulo ranges are longer, °."""
 
 
 class Compiled(NamedTuple):

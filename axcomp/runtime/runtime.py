@@ -26,6 +26,7 @@ from ..kernel import (
     has_notice,
     keep_declared,
     move_axis_table,
+    state_fits,
     update_error,
     zero,
 )
@@ -40,6 +41,10 @@ ON_INSTANT = 0.01
 
 NO_COMMAND = "an input switch was neither -1, 0 nor 1; it commanded nothing"
 """What is told of an axis with ``ERROR_SWITCH``."""
+
+
+CYCLES_MAX = 2.0**53
+"""Cycles of a run are counted exactly."""
 
 
 class UpdateError(ValueError):
@@ -105,9 +110,12 @@ class Runtime:
 
     def advance(self, time: float) -> None:
         """Run the cycles whose instants lie before ``time`` (s) and have not been run, with the inputs held."""
-        due = math.ceil((time - self.start_time) / self.tables.cycle_time - ON_INSTANT)
-        while self.cycles < due:
+        for _ in range(self.due(time)):
             self.cycle()
+
+    def due(self, time: float) -> int:
+        """Return how many cycles ``advance`` would run; 0 or less: none."""
+        return math.ceil((time - self.start_time) / self.tables.cycle_time - ON_INSTANT) - self.cycles
 
     def save(self) -> bytes:
         """Return a snapshot of everything that changes: state, inputs, outputs and the clock."""
@@ -120,7 +128,15 @@ class Runtime:
         The machine is the one in force: a snapshot from before an ``update`` belongs to another one.
         """
         clock = [0.0, 0.0]
-        unpack(data, self._machine_identity(), self.state, self.inputs, self.outputs, clock)
+        records = (self.state, self.inputs, self.outputs, clock)
+        before = pack(self._machine_identity(), *records)
+        try:
+            unpack(data, self._machine_identity(), *records)
+            if not (state_fits(self.tables, self.state) and 0.0 <= clock[1] <= CYCLES_MAX and math.isfinite(clock[0])):
+                raise SnapshotError("the snapshot has numbers that no run leads to")
+        except SnapshotError:
+            unpack(before, self._machine_identity(), *records)
+            raise
         self.start_time = clock[0]
         self.cycles = int(clock[1])
 

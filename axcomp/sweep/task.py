@@ -22,6 +22,7 @@ from ..engine import LIMITS, Columns, Engine, InputFile, Motion, completed
 from ..fmu import content_guid
 from ..lists import Finding, Reading, Severity, read_machine
 from ..model import Machine
+from ..saving import write_whole
 from .list_variation import ListEntry, Table, Value, read_files, varied
 from .reductions import Column, Reduction
 from .settings import PARAMETERS
@@ -211,7 +212,7 @@ class _Unpacked:
 
         self.folder = tempfile.mkdtemp(prefix="axcomp-sweep-")
         packed = Path(self.folder, "packed.fmu")
-        packed.write_bytes(next(iter(source.files.values())))
+        write_whole(packed, next(iter(source.files.values())))
         extract(str(packed), unzipdir=self.folder)
         self.description = read_model_description(self.folder, validate=False)
 

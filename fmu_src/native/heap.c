@@ -42,26 +42,12 @@ void axcomp_free_instance(Instance *instance)
     free(instance);
 }
 
-/* Free what was changed, is not in force any more, and no state refers to. */
-static void forget_tuned(Instance *instance)
-{
-    for (Lists **link = &instance->own; *link != NULL;) {
-        Lists *lists = *link;
-        if (lists->tuned && !lists->saved && lists != instance->lists) {
-            *link = lists->next;
-            axcomp_free_lists(lists);
-        } else {
-            link = &lists->next;
-        }
-    }
-}
-
 Lists *axcomp_copy_lists(Instance *instance)
 {
     const Lists *from = instance->lists;
     const Tables *tables = &from->tables;
     size_t axes = (size_t)tables->axis_count, volumetrics = (size_t)tables->volumetrics, numbers = (size_t)from->numbers;
-    forget_tuned(instance);
+    axcomp_forget_lists(instance);
     Lists *lists = (Lists *)malloc(sizeof *lists);
     if (lists == NULL) {
         return NULL;
@@ -70,6 +56,7 @@ Lists *axcomp_copy_lists(Instance *instance)
     lists->tuned = true;
     lists->saved = false;
     lists->users = 0;
+    lists->held = 0;
     double *pool = (double *)malloc((numbers + 1u) * sizeof *pool);
     lists->pool = pool;
     lists->tables.axis = (AxisTable *)malloc((axes + 1u) * sizeof(AxisTable));

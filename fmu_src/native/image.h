@@ -35,6 +35,7 @@ typedef struct Lists {
     char said[SAID_LENGTH]; /* the first of them */
     int32_t errors[AXES];   /* of an axis that keeps its old tables when these are taken: why; else 0 */
     unsigned users;         /* instances that share them; 0: they belong to one */
+    unsigned held;          /* by so many states in memory */
     struct Lists *next;
 #endif
 } Lists;

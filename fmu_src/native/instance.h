@@ -25,6 +25,7 @@ typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 
 /* The variables that the kernel does not know. */
 typedef struct {
     double cycle_time;
+    int32_t largest_step;  /* in cycles */
     bool reload;
     char update_path[PATH_LENGTH];  /* last of all: a saved state has only as much of it as is used */
 } Controls;
@@ -61,7 +62,7 @@ typedef struct {
     bool event_mode;      /* such a host uses event mode */
     bool stale;           /* in event mode: the outputs do not belong to the inputs yet */
 #if !defined(AXCOMP_EMBEDDED)
-    Lists *own;           /* all that were read by `reload`: a saved state may come back to them */
+    Lists *own;           /* that were read by `reload` and that a saved state may come back to */
     Lists *waiting;       /* of these: for the next step; NULL: none */
     bool logging;
     unsigned categories;  /* bit k: category k of axcomp_log_categories */
@@ -129,6 +130,15 @@ const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity);
 /* Let lists be in force, with the cycle time that is set. */
 void axcomp_use_lists(Instance *instance, const Lists *lists);
 
+/* Note that a state in memory refers to lists (`by` 1), or no longer does (-1). */
+void axcomp_hold_lists(Instance *instance, uint32_t identity, int by);
+
+/* Free lists that nothing uses, but for the last ones: a state in bytes may come back to them. */
+void axcomp_forget_lists(Instance *instance);
+
+/* Whether bytes that came from outside are a memory that belongs to lists: every index in it means something. */
+bool axcomp_memory_fits(const Lists *lists, const Memory *memory);
+
 /* Compute the outputs of the first cycle without running it. */
 void axcomp_preview_outputs(Instance *instance);
 
@@ -140,6 +150,10 @@ void axcomp_refresh_outputs(Instance *instance);
 
 /* Make a step from `begin` to `end`, s: run the cycles whose instants lie before its end and have not been run. */
 fmi2Status axcomp_advance(Instance *instance, double begin, double end);
+
+/* Round to nearest, whatever the host does; what it did is to be restored. */
+int axcomp_round_to_nearest(void);
+void axcomp_restore_rounding(int mode);
 
 /* Whether the parameter cycle_time is possible. */
 bool axcomp_cycle_time_fits(double cycle_time);

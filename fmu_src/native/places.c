@@ -12,7 +12,8 @@ const Place axcomp_machine_places[PLACES] = {
     AT(3) {'s', 't', offsetof(Memory, controls.update_path)},
     AT(4) {'r', 'p', offsetof(Memory, controls.cycle_time)},
     AT(5) {'r', 'i', offsetof(Memory, inputs.tool_length)},
-    AT(6) {'b', 'p', offsetof(Memory, inputs.derive_motion)}
+    AT(6) {'b', 'p', offsetof(Memory, inputs.derive_motion)},
+    AT(7) {'i', 'p', offsetof(Memory, controls.largest_step)}
 };
 
 const Place axcomp_axis_places[PLACES] = {

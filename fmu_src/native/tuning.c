@@ -130,6 +130,7 @@ void axcomp_tune(Instance *instance, Lists *copy)
 {
     Memory *memory = &instance->memory;
     const Lists *before = instance->lists;
+    int rounding = axcomp_round_to_nearest();
     for (int32_t i = 0; i < instance->tables.axis_count; i++) {
         const AxisTable *old = &instance->tables.axis[i];
         AxisTable *table = &copy->tables.axis[i];
@@ -137,6 +138,7 @@ void axcomp_tune(Instance *instance, Lists *copy)
             axcomp_adopt_axis(old, before->pool, table, copy->pool, &memory->state, &memory->inputs.axis[i], i);
         }
     }
+    axcomp_restore_rounding(rounding);
     axcomp_use_lists(instance, copy);
     instance->stale = true;
 }

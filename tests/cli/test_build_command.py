@@ -43,7 +43,8 @@ def test_without_options_both_fmus_of_the_example_are_built_here(tmp_path: Path)
 
 
 def test_options_reach_the_fmu(lists: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    output = tmp_path / "mine.fmu"
+    output = tmp_path / "new" / "mine.fmu"
+    output.parent.mkdir()
     options = ["--machine", str(lists), "--output", str(output), "--cycle-time", "0.002", "--naming", "flat"]
     assert main(["build", *options, "--no-external-tool"]) == 0
     description = fmpy.read_model_description(output)

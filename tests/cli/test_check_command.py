@@ -77,7 +77,8 @@ def test_help_has_an_example(command: str, capsys: Capture) -> None:
     assert f"axcomp {command}" in capsys.readouterr().out.partition("example:")[2]
 
 
-def test_parameters_are_printed_as_a_table(capsys: Capture) -> None:
+def test_parameters_are_printed_as_a_table(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("COLUMNS", raising=False)
     assert main(["parameters"]) == 0
     lines = capsys.readouterr().out.splitlines()
     row = next(line.split() for line in lines if line.startswith("frict_comp.delay_cycles"))

@@ -156,5 +156,5 @@ def test_without_openpyxl_the_extra_is_named(monkeypatch):
 
     monkeypatch.delitem(sys.modules, "openpyxl", raising=False)
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(MeasurementError, match=r"axcomp\[workbench\]"):
+    with pytest.raises(MeasurementError, match=r"axcomp\[tables\]"):
         read_positioning(SAMPLES / "axes.xlsx")

@@ -89,7 +89,7 @@ def test_commands_steps_snapshots_and_updates_are_the_same_in_both(machine: Mach
     commands = np.where(source.random(200) < 0.3, source.choice(blocks if ids else [*switches, " "], 200), "")
     results = [engine.run({**columns, "command": commands}) for engine in engines]
     assert results[0].notices == results[1].notices
-    for name, values in results[0].values.items():
+    for name, values in results[0].items():
         assert values.tobytes() == results[1][name].tobytes(), name
         assert values.dtype == results[1][name].dtype
     saved = [engine.runtime.save() for engine in engines]
@@ -125,10 +125,10 @@ def test_columns_of_any_kind_are_taken_as_they_are_given() -> None:
         "reset": np.arange(40) == 7,
     }
     first, second = (engine.run(columns) for engine in engines)
-    for name, values in first.values.items():
+    for name, values in first.items():
         assert values.tobytes() == second[name].tobytes(), name
     for row in range(40):
         values = {name: column[row] for name, column in columns.items()}
         assert repr(engines[0].step(values)) == repr(engines[1].step(values))
     assert engines[0].runtime.save() == engines[1].runtime.save()
-    assert len(engines[0].run({"X.setpoint": []})) == 0
+    assert engines[0].run({"X.setpoint": []}).cycles == 0

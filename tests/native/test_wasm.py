@@ -57,7 +57,7 @@ def by_chance(wasm: Path, folder: Path, cycles: int) -> None:
     proof = proof_of(cycles)
     told = run(wasm, folder, [{"kernel": one["kernel"], "cycles": cycles} for one in proof["machines"]])
     assert [int(line) for line in told] == [one["digest"] for one in proof["machines"]]
-    assert len({*told}) == len(told) >= 4
+    assert len({*told}) == len(told) == 5
 
 
 def test_all_models_over_inputs_by_chance(wasm: Path, tmp_path: Path) -> None:
@@ -66,7 +66,7 @@ def test_all_models_over_inputs_by_chance(wasm: Path, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_million_cycles(wasm: Path, tmp_path: Path) -> None:
-    by_chance(wasm, tmp_path, 250_000)
+    by_chance(wasm, tmp_path, 200_000)
 
 
 def test_the_kernel_in_python_gives_the_same_digest(wasm: Path, tmp_path: Path) -> None:

@@ -31,6 +31,7 @@ def lists_naming(folder: Path, name: str) -> Path:
 
 
 def test_each_compensation_of_a_machine_has_its_file(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "new").mkdir()
     assert main(["diagnose", str(models() / "five_axis"), "--output", str(tmp_path / "new" / "d.xlsx")]) == 0
     assert capsys.readouterr().out.splitlines() == [
         f"{tmp_path / 'new' / 'd-0.xlsx'}: 411 records of vol_comp0.csv",
@@ -72,7 +73,11 @@ def test_the_file_goes_where_the_list_says_or_beside_it(
 
 def test_a_place_that_is_there_is_taken(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "out").mkdir()
-    assert main(["diagnose", str(lists_naming(tmp_path / "lists", str(tmp_path / "out" / "d.xlsx")))]) == 0
+    lists = str(lists_naming(tmp_path / "lists", str(tmp_path / "out" / "d.xlsx")))
+    assert main(["diagnose", lists]) == 0
+    assert (tmp_path / "lists" / "d.xlsx").is_file()
+    assert "out is not allowed" in capsys.readouterr().err
+    assert main(["diagnose", lists, "--allow-outside", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out" / "d.xlsx").is_file()
     assert capsys.readouterr().err == ""
 
@@ -94,7 +99,10 @@ def test_an_earlier_diagnosis_is_replaced_but_nothing_else(tmp_path: Path, capsy
     first = (folder / "d.xlsx").read_bytes()
     assert main(["diagnose", str(folder)]) == 0
     assert (folder / "d.xlsx").read_bytes() == first
-    for name, sentence in (("hochlauf.lis", "is no spreadsheet; it stays as it is"), ("..", "it is a folder")):
+    for name, sentence in (
+        ("hochlauf.lis", "was not written by axcomp; it stays as it is"),
+        ("..", "leads out of the folder"),
+    ):
         capsys.readouterr()
         before = (folder / "hochlauf.lis").read_bytes()
         assert main(["diagnose", str(lists_naming(tmp_path, name))]) == 1
@@ -108,7 +116,7 @@ def test_an_earlier_diagnosis_is_replaced_but_nothing_else(tmp_path: Path, capsy
         (["nowhere"], "there is no volumetric list to be read in nowhere"),
         (["no_volumetric"], "there is no volumetric list to be read in no_volumetric"),
         (["lists"], "vol_comp0.lis: no diagnosis_file is named; --output FILE says where to write"),
-        (["lists", "--output", "lists/hochlauf.lis/d.xlsx"], "cannot be written"),
+        (["lists", "--output", "lists/hochlauf.lis/d.xlsx"], "there is no folder"),
         (["lists", "--output", "lists"], "it is a folder"),
     ],
 )
@@ -146,15 +154,15 @@ def test_without_openpyxl_a_sentence_says_what_to_install(tmp_path: Path, capsys
 
 def test_a_build_writes_the_files_that_lists_name(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "C:\\volcomp\\d.xlsx")
-    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
+    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin"), "--diagnosis"]) == 0
     out, err = capsys.readouterr()
     assert out.splitlines()[-1] == str(folder / "d.xlsx")
     assert "note: vol_comp0.lis: there is no C:\\volcomp on this machine" in err
     assert settings(folder / "d.xlsx")["records used"] == 2
 
 
-def test_a_build_without_such_a_list_writes_none(tmp_path: Path) -> None:
-    folder = write_lists(tmp_path / "lists", "file[0] e.csv", e_csv=CSV)
+def test_a_build_that_is_not_asked_writes_none(tmp_path: Path) -> None:
+    folder = lists_naming(tmp_path / "lists", "d.xlsx")
     before = sorted(folder.iterdir())
     assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
     assert sorted(folder.iterdir()) == before
@@ -163,14 +171,14 @@ def test_a_build_without_such_a_list_writes_none(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("hidden")
 def test_a_build_without_openpyxl_says_so_and_succeeds(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "d.xlsx")
-    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
+    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin"), "--diagnosis"]) == 0
     assert "note: d.xlsx is not written: it needs openpyxl: pip install 'axcomp[tables]'" in capsys.readouterr().err
     assert not (folder / "d.xlsx").exists()
 
 
 def test_a_build_that_cannot_write_one_says_so_and_succeeds(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "hochlauf.lis")
-    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
+    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin"), "--diagnosis"]) == 0
     assert "stays as it is" in capsys.readouterr().err
     assert (tmp_path / "t.bin").is_file()
 
