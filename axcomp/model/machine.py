@@ -126,11 +126,12 @@ class Axis:
 
     Examples
     --------
-    >>> from axcomp import Axis
-    >>> from axcomp.kinds import Temperature
-    >>> axis = Axis(1, "X", backlash_cycles=5, temperature=Temperature(coefficient=11.5e-6))
-    >>> axis.unit, axis.kinds, axis.cross
-    ('mm', ('temperature',), None)
+    >>> from axcomp import Axis, models, read_machine
+    >>> axis = read_machine(models() / "rotary_table").machine.axis("C")
+    >>> axis.unit, axis.kinds == tuple(one.kind for one in axis.compensations)
+    ('deg', True)
+    >>> Axis(1, "X", backlash_cycles=5)
+    Axis(1 X, translatory)
     """
 
     number: int
