@@ -15,7 +15,7 @@ ERRORS = """
     AXC-ORDER AXC-INTERVAL AXC-MODULO-SPAN AXC-AXIS-TYPE AXC-TESTS AXC-ACCELERATION AXC-RECORD AXC-MAGNITUDE
     AXC-CONSTANT AXC-ARGUMENTS AXC-POLYLINE AXC-MAX-RECORDS AXC-CHAIN AXC-ASSIGNMENT AXC-SINGULAR AXC-LIMIT
     70182 70183 70184 70245 70468 70469 70471 70506 70507
-    AXC-GAP AXC-ZEROED
+    AXC-GAP AXC-ZEROED AXC-FOLDER
     AXC-BUILD
     110229 110472 110591 110638 110639 110640 110641 110647
 """
@@ -70,6 +70,7 @@ VARIABLES = {
     "reload": (2, "Boolean", "input", "discrete", None, "false"),
     "update_path": (3, "String", "parameter", "tunable", None, ""),
     "cycle_time": (4, "Real", "parameter", "fixed", "s", "0.001"),
+    "largest_step": (7, "Integer", "parameter", "fixed", None, "10000000"),
     "tool_length": (5, "Real", "input", "continuous", "mm", "0.0"),
     "derive_motion": (6, "Boolean", "parameter", "fixed", None, "false"),
     "X.setpoint": (64, "Real", "input", "continuous", "mm", "0.0"),

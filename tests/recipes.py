@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "architecture.md"
-COPIED = ("axcomp", "fmu_src", "models", "docs", "README.md", "pyproject.toml")
+COPIED = ("axcomp", "fmu_src", "models", "docs", "README.md", "LICENSE", "pyproject.toml")
 
 _BLOCK = re.compile(r"^```(python|diff|sh)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 

@@ -115,9 +115,10 @@ def test_the_examples_for_python_run(tmp_path: Path) -> None:
     (tmp_path / "models").symlink_to(ROOT / "models")
     pages = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("hosts.md", "python.md")]
     blocks = [block for page in pages for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL)]
-    assert len(blocks) == 4
+    assert len(blocks) == 5
     build = [sys.executable, str(ROOT / "build_fmu.py")]
-    for command in (build, *([sys.executable, "-c", block] for block in blocks)):
+    third = [*build, "--machine", "models/three_axis", "--fmi", "2.0", "3.0"]
+    for command in (build, third, *([sys.executable, "-c", block] for block in blocks)):
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         result = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
         assert result.returncode == 0, result.stderr

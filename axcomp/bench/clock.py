@@ -12,9 +12,9 @@ from dataclasses import dataclass
 class Sample:
     """Repeated measurements of one cost.
 
-    ``unit``: ``µs`` or ``ns`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``×`` for
-    ratios. ``goal``: what it may cost at most, in the same unit; of a ratio: what it must be at least; None: no figure
-    is set.
+    ``unit``: ``µs`` or ``ns`` for cycles, ``s`` or ``ms`` for what happens once, ``MB`` for memory and files, ``:1``
+    for how much more something costs, ``×`` for how much faster it is. ``goal``: what it may be at most, in the same
+    unit, of ``×`` at least; None: no figure is set.
     """
 
     name: str
@@ -28,6 +28,16 @@ class Sample:
         return statistics.median(self.values)
 
     @property
+    def at(self) -> str:
+        """Say on which side of the goal the median should be."""
+        return "at least" if self.unit == "×" else "at most"
+
+    @property
+    def missed(self) -> bool:
+        """Whether there is a goal and the median is beyond it."""
+        return self.goal is not None and (self.median < self.goal if self.unit == "×" else self.median > self.goal)
+
+    @property
     def low(self) -> float:
         """Return the least value."""
         return min(self.values)
@@ -36,6 +46,12 @@ class Sample:
     def high(self) -> float:
         """Return the greatest value."""
         return max(self.values)
+
+
+def ratio(name: str, one: Sample, others: tuple[Sample, ...], goal: float | None = None) -> Sample:
+    """Return how much more one cost is than the medians of others together."""
+    limit = sum(other.median for other in others)
+    return Sample(name, ":1", tuple(value / limit for value in one.values), goal)
 
 
 def sample(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +15,11 @@ from ..engine import Engine
 from ..model import Machine
 from ..native import SWITCH, compiled_kernel
 from ..runtime import Runtime
-from .clock import Sample, sample
+from .clock import Sample, ratio, sample
 from .machines import machine_of
 
 CYCLES = 2000
+_MOVED = frozenset({"setpoint", "velocity", "acceleration"})
 AXES = (3, 8, 16, 32)
 POINTS = (10, 100, 1000, 10_000)
 
@@ -31,6 +33,35 @@ def bench_engine(
         yield _trajectory(machine, f"cycle of {name} in Engine.run, compiled", 200_000, repeats, compiled_goal)
     with _python_kernel():
         yield _trajectory(machine, f"cycle of {name} in Engine.run, Python", 5_000, repeats)
+
+
+def bench_calls(machine: Machine, name: str, repeats: int) -> Iterator[Sample]:
+    """Measure what the calls of ``Engine`` cost besides the cycles: one step, one row, many rows with commands."""
+    if compiled_kernel() is None:
+        return
+    engine = Engine(machine)
+    rows = 100_000
+    columns = _columns(engine, rows)
+    one_row = {key: column[:1] for key, column in columns.items()}
+    values = {key: float(column[0]) for key, column in columns.items()}
+    yield sample(f"Engine.step of {name}", "µs", lambda: _often(engine.step, values), each=1000, goal=8.0)
+    yield sample(f"Engine.run of one row of {name}", "µs", lambda: _often(engine.run, one_row), each=1000, goal=20.0)
+    axis = machine.axes[0]
+    blocks = [f"{axis.name}[COMP {'OFF_ALL' if k % 20 else 'ON'}]" if k % 10 == 0 else "" for k in range(rows)]
+    without = sample("", "µs", lambda: engine.run(columns), repeats=repeats, each=rows)
+    commanded = sample("", "µs", lambda: engine.run({**columns, "command": blocks}), repeats=repeats, each=rows)
+    yield ratio(f"Engine.run of {name}, a command every tenth row / none", commanded, (without,), 2.0)
+
+
+def _often(call: Callable[[Any], object], given: object) -> None:
+    for _ in range(1000):
+        call(given)
+
+
+def _columns(engine: Engine, rows: int) -> dict[str, NDArray[np.float64]]:
+    """Return a trajectory in which every axis moves."""
+    names = [v.name for v in engine.variables if v.causality == "input" and v.field in _MOVED]
+    return {name: 200.0 * np.sin(1e-3 * np.arange(rows) + k) for k, name in enumerate(names)}
 
 
 def bench_growth(repeats: int) -> Iterator[Sample]:
@@ -50,10 +81,7 @@ def _grown(machine: Machine, name: str, repeats: int) -> Iterator[Sample]:
 def _trajectory(machine: Machine, name: str, rows: int, repeats: int, goal: float | None = None) -> Sample:
     """Measure ``Engine.run`` over a trajectory in which every axis moves."""
     engine = Engine(machine)
-    trajectory: dict[str, NDArray[np.float64]] = {}
-    for variable in engine.variables:
-        if variable.causality == "input" and variable.field in {"setpoint", "velocity", "acceleration"}:
-            trajectory[variable.name] = 200.0 * np.sin(1e-3 * np.arange(rows) + len(trajectory))
+    trajectory = _columns(engine, rows)
     return sample(name, "µs", lambda: engine.run(trajectory), repeats=repeats, each=rows, goal=goal)
 
 

@@ -26,7 +26,7 @@ def bench_lists(repeats: int) -> Iterator[Sample]:
         )
         yield reading
         ratios = tuple(value / split.median for value in reading.values)
-        yield Sample("reading them / split and float of them", "×", ratios, 2.5)
+        yield Sample("reading them / split and float of them", ":1", ratios, 2.5)
         fmu = Path(output, "largest.fmu")
         yield sample("FMU of them", "s", lambda: package_axcomp(folder, fmu), repeats=repeats, goal=2.0)
 

@@ -31,6 +31,7 @@ COMMANDS = {
     "sweep": "run many variations of a machine",
     "budget": "what each compensation and each error contributes along a path",
     "report": "write everything about a machine on one page",
+    "page": "build the page that looks at lists in a browser",
     "replay": "compare a trace of a controller with the engine",
     "diagnose": "write all records of the volumetric compensations",
 }

@@ -65,7 +65,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_budget(args: argparse.Namespace) -> int:
-    machine = read_lists(args.path).machine
+    machine = read_lists(args.path, args.allow_outside).machine
     if args.points < 2 or args.cycle_time <= 0.0 or args.trials < 2 or args.places < 1 or args.seed < 0:
         sentence = "--points and --trials are at least 2, --places 1, --seed 0, and --cycle-time is above 0"
         return failed("budget", sentence)

@@ -28,8 +28,8 @@ from ..lint import (
 )
 from ..lists import Document, Finding, Reading, Severity
 from ..model import machine_path
-from .axis_type import add_axis_type
 from .judgement_options import add_judgement_options, evidence_of
+from .reading_options import add_reading_options
 
 _EXAMPLE = """\
 The exit status is 0 if there is no finding of the severity --fail-on or above, 1 if there is one, 2 if the lists could
@@ -91,7 +91,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     either.add_argument("--fix", action="store_true", help="mend what can be mended without a decision")
     either.add_argument("--diff", action="store_true", help="print what --fix would change, and nothing else")
     add_judgement_options(parser)
-    add_axis_type(parser)
+    add_reading_options(parser)
     parser.set_defaults(do=_do_check)
 
 
@@ -171,7 +171,8 @@ def _settings(options: argparse.Namespace, path: Path) -> Settings:
     if options.baseline is not None:
         given["baseline"] = str(options.baseline.absolute())
     folder = settings.folder if settings.folder != Path() else Path.cwd()
-    return replace(settings, **given, folder=folder, ignore=(*settings.ignore, *options.ignore))
+    ignore, allowed = (*settings.ignore, *options.ignore), tuple(options.allow_outside)
+    return replace(settings, **given, folder=folder, ignore=ignore, allow_outside=allowed)
 
 
 def _checked(

@@ -37,11 +37,13 @@ def measure(args: argparse.Namespace) -> int:
         if args.plot is not None and results:
             from matplotlib.figure import Figure  # takes long to load
 
+            from ..plot import save
+
             drawing = Figure(figsize=(8.0 * len(results), 8.4), dpi=120, layout="constrained")
             for number, result in enumerate(results, 1):
                 polar: Any = drawing.add_subplot(1, len(results), number, projection="polar")
                 result.plot(polar)
-            drawing.savefig(args.plot)
+            save(drawing, args.plot)
     except OSError as error:
         print(f"axcomp measure: {error.filename}: {error.strerror}", file=sys.stderr)
         errors += 1

@@ -28,6 +28,7 @@ from ..conversion import (
 )
 from ..kinds import KINDS
 from ..lists import decode, machine_documents, read_machine, write_machine
+from ..saving import write_whole
 from .lists import add_lists_command, failed, read_lists
 
 _NAMES = (LISTS, *FORMATS)
@@ -81,7 +82,7 @@ def _do_convert(args: argparse.Namespace) -> int:
         else:
             text, result = written(tables, args.to, replace(_options(args), inch=args.to_inch))
             if args.output is not None:
-                args.output.write_text(text, encoding="utf-8")
+                write_whole(args.output, text)
     except FormatError as error:
         print(f"{args.path}:{error.line}: error: {error.message}", file=sys.stderr)
         return 1
@@ -120,7 +121,7 @@ def _read(args: argparse.Namespace) -> tuple[list[CompensationTable], list[str]]
     """Return the tables that are asked for, and what the target does not take over."""
     source = args.source or (LISTS if args.path.is_dir() or args.path.suffix.lower() == ".lis" else None)
     if source == LISTS:
-        machine = read_lists(args.path).machine
+        machine = read_lists(args.path, args.allow_outside).machine
         tables = tables_of(machine, args.axis, args.kind)
         return tables, dropped(machine, tables) if args.to != LISTS else []
     text = decode(args.path.read_bytes())
@@ -140,7 +141,8 @@ def _write_lists(tables: Sequence[CompensationTable], args: argparse.Namespace) 
     """Write a machine's lists once what they say is found to be right."""
     if args.output is None:
         raise CannotHoldError("lists are several files: give a folder for them with --output")
-    machine = machine_with(tables, None if args.machine is None else read_lists(args.machine).machine)
+    of = None if args.machine is None else read_lists(args.machine, args.allow_outside).machine
+    machine = machine_with(tables, of)
     back = read_machine(args.output, documents=machine_documents(machine, args.output)).machine
     held = [(axis.name, kind) for kind in CONVERTED for axis in back.axes if getattr(axis, kind)]
     after = [table for axis, kind in held for table in tables_of(back, axis, kind)]

@@ -67,8 +67,10 @@ def _do_create(args: argparse.Namespace) -> int:
         kept = [] if args.dry_run else creation.backups(args.output)
         written = [] if args.dry_run else creation.write(args.output)
         if args.plot is not None:
+            from ..plot import save  # takes long to load
+
             picture: Any = creation.plot().figure
-            picture.savefig(args.plot)
+            save(picture, args.plot)
     except MeasurementError as error:
         print(error, file=sys.stderr)
         return 1

@@ -37,7 +37,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_diagnose(args: argparse.Namespace) -> int:
-    reading = read_machine(args.path)
+    reading = read_machine(args.path, allow_outside=args.allow_outside)
     found, faults = volumetric_lists(reading)
     status = max([0, *(failed("diagnose", fault) for fault in faults)])
     sources = [source for source in found if args.id in (None, source.index)]

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from ..fit import CannotCreateError, TargetList, TunedAxis, plant_description, tune_on_circle
-from ..lists import Reading, Severity, read_machine, write_whole
+from ..lists import Reading, Severity, read_machine
 from ..measurement import MeasurementError, evaluate_circular, joined_tests, read_circular
 from ..model import machine_path
+from ..saving import write_all
 
 SETTLED = ("scaling_factor", "position_delay", "reversal_lookahead", "delay_cycles")
 """Entries that are tuned."""
@@ -83,8 +84,7 @@ def _write(reading: Reading, tuned: Sequence[TunedAxis]) -> list[Path]:
             raise CannotCreateError(f"there is no compensation list of {one.axis}")
         data = TargetList(document.path).with_compensation("friction", one.tuned.friction, settled=SETTLED)
         files[Path(document.path)] = data
-    for path, data in files.items():
-        write_whole(path, data)
+    write_all(files)
     return list(files)
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..lists import Reading, Severity, TypeName, read_machine
 from ..model import machine_path
+from .reading_options import add_allow_outside
 
 STATUS_MAX = 100
 """Largest exit status that counts something: larger ones are not the program's to use."""
@@ -27,13 +28,14 @@ def add_lists_command(
         name, description=description, epilog=epilog, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("path", type=machine_path, metavar="PATH", help=path_help)
+    add_allow_outside(parser)
     parser.set_defaults(do=do)
     return parser
 
 
-def read_lists(path: Path, axis_type: TypeName | None = None) -> Reading:
+def read_lists(path: Path, allow_outside: Sequence[Path], axis_type: TypeName | None = None) -> Reading:
     """Return the lists of a machine; errors in them go to standard error."""
-    reading = read_machine(path, axis_type=axis_type)
+    reading = read_machine(path, axis_type=axis_type, allow_outside=allow_outside)
     for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)

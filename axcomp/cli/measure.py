@@ -119,15 +119,17 @@ def _compared(results: list[Iso230Result]) -> BeforeAfter:
 def _plot(results: list[Iso230Result], compared: BeforeAfter | None, file: Path) -> None:
     from matplotlib.figure import Figure  # takes long to load
 
+    from ..plot import save
+
     if compared is not None:
-        compared.figure().savefig(file)
+        save(compared.figure(), file)
         return
     drawing = Figure(figsize=(10.0, 5.6 * len(results)), dpi=120, layout="constrained")
     for number, result in enumerate(results, 1):
         ax = result.plot(drawing.add_subplot(len(results), 1, number))
         if len(results) > 1:
             ax.set_title(f"{Path(result.source).name}\n{ax.get_title()}", fontsize=12)
-    drawing.savefig(file)
+    save(drawing, file)
 
 
 def _print(result: Iso230Result) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from ..fit import TcpDeviations, fit_of, plan_volumetric, rows_of
 from ..measurement import MeasurementError, joined
 from ..model import LETTERS, symbol
+from ..saving import write_whole
 
 _RANGE = re.compile(r"([XYZABC])=(-?[\d.]+)\.\.(-?[\d.]+)\Z", re.I)
 _KINDS = ("deviation", "point", "length", "displacement")
@@ -30,7 +31,12 @@ example:
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command."""
-    parser = subparsers.add_parser("plan", description="Proposes what to measure next.")
+    parser = subparsers.add_parser(
+        "plan",
+        description="Proposes what to measure next.",
+        epilog="example:\n  axcomp plan volumetric vol_comp0.lis --volume X=0..600 Y=0..500 Z=-400..0",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     kinds = parser.add_subparsers(metavar="KIND", required=True)
     one = kinds.add_parser(
         "volumetric",
@@ -42,7 +48,13 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     one.add_argument("list", type=Path, metavar="LIST", help="vol_comp*.lis; or the options of a new one")
     one.add_argument("--volume", nargs="+", required=True, metavar="X=0..600", help="where each axis may go, mm or °")
     one.add_argument("--count", type=int, default=100, metavar="N", help="readings to propose (default: 100)")
-    one.add_argument("--kind", choices=_KINDS, default=_KINDS[0], help="what is read (default: deviation)")
+    one.add_argument(
+        "--kind",
+        choices=_KINDS,
+        default=_KINDS[0],
+        metavar="NAME",
+        help=f"what is read: {', '.join(_KINDS)} (default: {_KINDS[0]})",
+    )
     one.add_argument(
         "--station",
         nargs=3,
@@ -83,7 +95,7 @@ def _do_plan(args: argparse.Namespace) -> int:
     names, rows = rows_of(plan, target.volumetric.chain, args.kind)
     text = ",".join(names) + "\n" + "".join(",".join(f"{value:g}" for value in row) + "\n" for row in rows)
     if args.output is not None:
-        args.output.write_text(text, encoding="utf-8")
+        write_whole(args.output, text)
     states = {"so far": plan.before, "with these readings": plan.uncertainty, "with as many at random": plan.random}
     shown: dict[str, Any] = {
         name: {"median": float(np.median(one)), "largest": float(one.max())}

@@ -12,6 +12,7 @@ from pathlib import Path
 from ..analysis.replay import EXPLAINED, WITHIN, WITHIN_OTHER, Comparison, compare, read_trace
 from ..lists import Severity, read_machine
 from ..model import machine_path
+from .reading_options import add_allow_outside
 
 _EPILOG = f"""\
 The trace has a row for each cycle (or a column time), names in its first row, and at least a setpoint and one output of
@@ -52,11 +53,12 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument("--skip", type=float, default=0.0, metavar="s", help="at the beginning, not compared (0)")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="trace, engine and their difference")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")
+    add_allow_outside(parser)
     parser.set_defaults(do=_do_replay)
 
 
 def _do_replay(args: argparse.Namespace) -> int:
-    reading = read_machine(args.machine)
+    reading = read_machine(args.machine, allow_outside=args.allow_outside)
     for finding in reading.findings:
         if finding.severity is Severity.ERROR:
             print(finding, file=sys.stderr)

@@ -13,6 +13,7 @@ from ..lists import Reading, read_machine
 from ..measurement import evaluate_robustly
 from ..plot import NoPlotlyError
 from ..report import REPEATS, ProtocolFields, make_protocol, make_report
+from ..saving import write_whole
 from .judgement_options import add_judgement_options, evidence_of
 from .lists import STATUS_MAX, add_lists_command, failed
 
@@ -39,7 +40,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     )
     parser.add_argument("--interactive", action="store_true", help="volumetric errors in 3-D, by Plotly's script")
     add_judgement_options(parser)
-    group = parser.add_argument_group("a dated protocol instead, which prints to A4; the first measurement is before")
+    group = parser.add_argument_group("a dated protocol instead", "It prints to A4; the first measurement is before.")
     group.add_argument("--protocol", action="store_true", help="write it")
     group.add_argument("--fields", type=Path, metavar="FILE.toml", help="what it says; options go before the file")
     for one in fields(ProtocolFields):
@@ -49,7 +50,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 
 def _do_report(options: argparse.Namespace) -> int:
-    reading = read_machine(options.path)
+    reading = read_machine(options.path, allow_outside=options.allow_outside)
     if not reading.machine.axes:
         for finding in reading.findings:
             print(finding, file=sys.stderr)
@@ -69,7 +70,7 @@ def _do_report(options: argparse.Namespace) -> int:
         html = replace(report, turning=options.interactive).html()
     except NoPlotlyError as error:
         return failed("report", str(error))
-    options.output.write_text(html, encoding="utf-8")
+    write_whole(options.output, html)
     for note in report.notes:
         print(f"axcomp report: {note}", file=sys.stderr)
     if options.format == "json":
@@ -88,7 +89,7 @@ def _write_protocol(options: argparse.Namespace, reading: Reading, evidence: Evi
         return failed("report", str(error))
     evaluations = [evaluate_robustly(one) for one in evidence.readings]
     protocol = make_protocol(reading, evaluations, found, evidence.faults)
-    options.output.write_text(protocol.html(), encoding="utf-8")
+    write_whole(options.output, protocol.html())
     for note in protocol.notes:
         print(f"axcomp report: {note}", file=sys.stderr)
     if options.format == "json":

@@ -15,7 +15,7 @@ from ..analysis.diagnosis import write_named_diagnoses
 from ..engine import COMMAND, TIME, Engine, NcError, read_table
 from ..lists import read_machine
 from ..model import CYCLE_TIME, machine_path
-from .axis_type import add_axis_type
+from .reading_options import add_reading_options
 
 _ON_TIME = 1e-6
 """Share of a cycle by which the instants of the rows may be off."""
@@ -69,7 +69,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
     parser.add_argument(
         "--naming", choices=("structured", "flat"), default="structured", help="X.setpoint (default) or X_setpoint"
     )
-    add_axis_type(parser)
+    add_reading_options(parser)
     parser.set_defaults(do=_do_run)
 
 
@@ -79,12 +79,13 @@ def _do_run(args: argparse.Namespace) -> int:
     if program.spacing is not None and abs(program.spacing - cycle_time) > _ON_TIME * cycle_time:
         raise ValueError(f"{args.program}: the rows are {program.spacing:g} s apart, the cycles {cycle_time:g} s")
     lists = args.machine
-    engine = Engine(lists, cycle_time, args.naming, args.axis_type)
+    engine = Engine(lists, cycle_time, args.naming, args.axis_type, args.allow_outside)
     engine.runtime.start_time = program.start
 
     def write_diagnosis(index: int | None = None) -> Iterator[str]:
         """Write what the controller writes at start-up and with every UPDATE."""
-        for said in write_named_diagnoses(read_machine(lists, axis_type=args.axis_type), index):
+        reading = read_machine(lists, axis_type=args.axis_type, allow_outside=args.allow_outside)
+        for said in write_named_diagnoses(reading, index):
             yield f"{said} is written." if isinstance(said, Path) else said
 
     engine.nc.on_update = write_diagnosis

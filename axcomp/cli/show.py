@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import io
 import json
 import sys
 from collections.abc import Sequence
@@ -23,8 +24,9 @@ from ..plot import (
     save,
     shown,
 )
-from .axis_type import add_axis_type
+from ..saving import write_whole
 from .lists import add_lists_command, failed, read_lists
+from .reading_options import add_axis_type
 
 ROWS = 12
 HEAD_MAX = 110
@@ -90,7 +92,7 @@ def _do_show(args: argparse.Namespace) -> int:
 
 def _contents(path: Path, args: argparse.Namespace) -> tuple[list[Content], set[str], str]:
     """Return what is asked for, the names of the machine's axes, and its own."""
-    reading = read_lists(path, args.axis_type)
+    reading = read_lists(path, args.allow_outside, args.axis_type)
     machine = reading.machine
     contents = contents_of(machine, args.axis, args.kind, args.tool_length)
     return contents, {axis.name for axis in machine.axes}, reading.name
@@ -139,13 +141,14 @@ def _write_csv(contents: Sequence[Content], path: Path) -> list[Path]:
     """Write all numbers below each other; columns that a content does not have stay empty."""
     all_records = [content.records() for content in contents]
     columns = list(dict.fromkeys(column for records in all_records for column in records.columns))
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["axis", "kind", "part", *columns])
-        for content, records in zip(contents, all_records, strict=True):
-            for row in records.rows:
-                cells = dict(zip(records.columns, row, strict=True))
-                writer.writerow([*astuple(content.subject), *(cells.get(name, "") for name in columns)])
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["axis", "kind", "part", *columns])
+    for content, records in zip(contents, all_records, strict=True):
+        for row in records.rows:
+            cells = dict(zip(records.columns, row, strict=True))
+            writer.writerow([*astuple(content.subject), *(cells.get(name, "") for name in columns)])
+    write_whole(path, file.getvalue())
     return [path]
 
 
@@ -157,7 +160,7 @@ def _written(contents: Sequence[Content], args: argparse.Namespace, title: str, 
     path: Path = args.output
     suffix = path.suffix.lower()
     if suffix == ".html":
-        path.write_text(page(title, contents, notes, turning=args.interactive), encoding="utf-8")
+        write_whole(path, page(title, contents, notes, turning=args.interactive))
         return [path]
     return _write_pictures(contents, path) if suffix == ".png" else _write_csv(contents, path)
 

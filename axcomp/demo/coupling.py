@@ -19,6 +19,7 @@ from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 from ..engine import Array
+from ..saving import write_whole
 
 COMPENSATION, PLANT = "axcomp", "plant"
 COMMANDS = ("setpoint", "velocity", "acceleration")
@@ -163,9 +164,7 @@ def main(folder: Path) -> None:
         with (folder / DONE).open("a", encoding="ascii") as done:
             done.write(f"{len(simulation.commands)}\n")
     # Complete before the process ends: ending an embedded interpreter is where it may fail.
-    unfinished = folder / "unfinished"
-    unfinished.write_bytes(pickle.dumps(results))
-    unfinished.replace(folder / RESULTS)
+    write_whole(folder / RESULTS, pickle.dumps(results))
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from ..engine import Array
 from ..model import Machine
+from ..plot import save
 from .evaluation import Outcome, motion_of
 from .trials import TCP, VOLUMETRIC, Cycles, Stage, Trial, name_of
 
@@ -46,7 +47,7 @@ def draw(path: Path, machine: Machine, results: Sequence[Outcome], cycle_time: f
         ax.set_axis_off()
     lines = [Line2D([], [], color=color, marker="o", label=label) for color, label in LEGEND]
     figure.legend(handles=lines, loc="outside upper center", ncols=len(lines), frameon=False, fontsize=12)
-    figure.savefig(path)
+    save(figure, path)
 
 
 def _telling(stage: Stage, results: Sequence[Outcome], kind: str) -> Outcome | None:

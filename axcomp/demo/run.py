@@ -20,6 +20,7 @@ from ..fit import Circle, ReversingAxis, tune
 from ..fmu import BuildError, Built, NoCompilerError, package_axcomp, package_native
 from ..model import CYCLE_TIME, Machine
 from ..plant import MEMORYLESS, Plant, load_plant, package_plant, plant_variables
+from ..saving import write_whole
 from .coupling import BATCH, COMMANDS, COMPENSATION, DONE, PLANT, RESULTS, Batch, Simulation
 from .evaluation import Outcome, Trace, outcomes
 from .trials import FEED, RADIUS, TOOL_LENGTH, VOLUMETRIC, Trial, name_of, trials_of, volumetric_trials
@@ -98,7 +99,7 @@ def demonstrate(
             extract(path, folder / name)
         tool_length = TOOL_LENGTH if knows_tip and machine.volumetric else None
         traces, left = _simulate(
-            folder, machine, every, tool_length, lambda: _best_left(machine, trials, whole), progress
+            folder, machine, every, tool_length, progress, lambda: _best_left(machine, trials, whole)
         )
     shown = []
     for first in range(0, len(every), len(simulations)):
@@ -166,8 +167,8 @@ def _simulate(
     machine: Machine,
     simulations: Sequence[Simulation],
     tool_length: float | None,
-    meanwhile: Callable[[], dict[str, float]],
     progress: Progress,
+    meanwhile: Callable[[], dict[str, float]],
 ) -> tuple[list[Trace], dict[str, float]]:
     """Share the simulations out to processes, each of which loads both FMUs.
 
@@ -187,7 +188,7 @@ def _simulate(
         own = folder / f"batch{number}"
         own.mkdir()
         batch = Batch(axes, currents, CYCLE_TIME, tool_length, [simulations[index] for index in share])
-        (own / BATCH).write_bytes(pickle.dumps(batch))
+        write_whole(own / BATCH, pickle.dumps(batch))
         with (own / "messages.txt").open("wb") as messages:
             command = [sys.executable, "-m", f"{__package__}.coupling", str(own)]
             children.append(subprocess.Popen(command, stdout=messages, stderr=messages, env=_environment()))

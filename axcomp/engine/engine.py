@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..interface import Naming, Slot, Value, Variable, by_name, identifier, slot_of, variables_of, whole, with_causality
+from ..interface import Naming, Slot, Value, Variable, by_name, identifier, slot_of, variables_of, with_causality
 from ..lists import Finding, ListError, TypeName, read_machine
 from ..model import CYCLE_TIME, Machine
-from ..native import CompiledTables, compiled_kernel, run_compiled
+from ..native import NOTHING, CompiledRuntime, Fields, Poke, compiled_kernel
 from ..runtime import Runtime
 from .completion import completed
 from .nc_control import NcControl
 from .nc_scanner import NcError
 from .result import Result
+from .values import Row, column_of, taken
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..kernel import Inputs
-
+TIME = "time"
 COMMAND = "command"
 """Column of a trajectory that has NC commands."""
 
@@ -81,26 +79,31 @@ class Engine:
         cycle_time: float = CYCLE_TIME,
         naming: Naming = "structured",
         axis_type: TypeName | None = None,
+        allow_outside: Sequence[str | os.PathLike[str]] = (),
     ) -> None:
         self.findings: tuple[Finding, ...] = ()
         lists = None
         if not isinstance(machine, Machine):
             lists = machine
-            reading = read_machine(machine, axis_type=axis_type)
+            reading = read_machine(machine, axis_type=axis_type, allow_outside=allow_outside)
             machine, self.findings = reading.machine, tuple(reading.findings)
             if not machine.axes:
                 raise ListError(self.findings)
         self._arguments = machine, cycle_time, naming
         self.machine = machine
-        self.runtime = Runtime(machine, cycle_time)
-        self._compiled: CompiledTables | None = None
-        self.nc = NcControl(self.runtime, lists)
+        kernel = compiled_kernel()
+        self.runtime = Runtime(machine, cycle_time) if kernel is None else CompiledRuntime(machine, cycle_time, kernel)
+        self.nc = NcControl(self.runtime, lists, allow_outside)
         self.variables = tuple(v for v in variables_of(machine, naming, cycle_time) if self._slot(v) is not None)
         self._by_name = by_name(self.variables)
         self._slots: dict[str, Slot] = {}
-        self._bound: Inputs | None = None
+        self._bound: object = None
         self._said: set[str] = set()
         self._outputs = with_causality(self.variables, "output")
+        self._units = {v.name: v.unit for v in self._outputs if v.unit}
+        self._complete: set[frozenset[str]] = set()
+        self._rows: dict[tuple[str, ...], Row] = {}
+        self._fields: dict[tuple[str, ...], Fields] = {}
 
     def __repr__(self) -> str:
         named = [f"{one.name}: {', '.join(one.kinds) or 'no compensation'}" for one in self.machine.axes]
@@ -140,9 +143,7 @@ class Engine:
         """Set inputs ``values`` by name, held until set again; KeyError, with the known names, for an unknown one."""
         for name, value in values.items():
             variable = self._input(name)
-            self._slot_of(variable).set(
-                whole(float(value)) if variable.type == "Integer" else type(variable.start)(value)
-            )
+            self._slot_of(variable).set(taken(variable)(value))
 
     def get(self) -> dict[str, Value]:
         """Return all outputs of the last cycle by name."""
@@ -153,8 +154,23 @@ class Engine:
 
         NcError for a command that cannot be carried out.
         """
+        if isinstance(self.runtime, CompiledRuntime) and not command:
+            return self._row_of(self.runtime, values or {}).step(self.runtime, values or {})
         self._cycle(values or {}, command)
         return self.get()
+
+    def _fields_of(self, runtime: CompiledRuntime, variables: Sequence[Variable]) -> Fields:
+        names = tuple(variable.name for variable in variables)
+        if names not in self._fields:
+            self._fields[names] = runtime.fields(variables)
+        return self._fields[names]
+
+    def _row_of(self, runtime: CompiledRuntime, values: Iterable[str]) -> Row:
+        """Return a row with inputs of these names; hosts set the same ones again and again."""
+        names = tuple(values)
+        if names not in self._rows:
+            self._rows[names] = Row(runtime, [self._input(name) for name in names], self._outputs)
+        return self._rows[names]
 
     def _cycle(self, values: Mapping[str, Value], command: str) -> tuple[str, ...]:
         """Do what ``step`` does; return what the command has to say."""
@@ -183,39 +199,22 @@ class Engine:
         ValueError
             If the columns differ in length, or a command is none; an UPDATE can be refused midway.
         """
-        cycles = _length({name: column for name, column in trajectory.items() if name != "time"})
+        cycles = _length({name: column for name, column in trajectory.items() if name != TIME})
         trajectory, said = self._completed(trajectory)
-        given = [self._input(name) for name in trajectory if name not in ("time", COMMAND)]
-        columns = [_column(trajectory[v.name], v) for v in given]
-        if not given:
-            given = [next(variable for variable in self.variables if variable.causality == "input")]
-            columns = [np.full(cycles, self._slot_of(given[0]).get())]
-        blocks = [str(block) for block in np.asarray(trajectory.get(COMMAND, [])).tolist()]
-        for row, block in enumerate(blocks):
-            with _naming_row(row):
-                self.nc.check(block)
+        if cycles == 1 and COMMAND not in trajectory and isinstance(self.runtime, CompiledRuntime):
+            return self._run_row(self.runtime, trajectory, said)
+        given = [self._input(name) for name in trajectory if name not in (TIME, COMMAND)]
+        columns = [column_of(trajectory[v.name], v) for v in given]
+        blocks = _blocks(trajectory[COMMAND]) if COMMAND in trajectory else {}
         instants = np.arange(self.runtime.cycles, self.runtime.cycles + cycles, dtype=np.float64)
         time = self.runtime.start_time + self.runtime.tables.cycle_time * instants
-        notices: list[str] = [text for text in said if text not in self._said]
-        self._said.update(said)
-        pieces = []
-        for first, last in _pieces(blocks, cycles):
-            rows = [column[first:last] for column in columns]
-            if first < len(blocks) and blocks[first].strip():
-                inputs = {variable.name: column.item() for variable, column in zip(given, rows, strict=True)}
-                with _naming_row(first):
-                    notices += self._cycle(inputs, blocks[first])
-                pieces.append({name: np.array([value]) for name, value in self.get().items()})
-            elif (kernel := compiled_kernel()) is None:
-                pieces.append(self._run_in_python(given, rows))
-            else:
-                pieces.append(self._run_compiled(kernel, given, rows))
-        values = pieces[0]
-        if len(pieces) > 1:
-            values = {name: np.concatenate([piece[name] for piece in pieces]) for name in values}
-        return Result(
-            time, values, (*notices, *self.runtime.notices()), {v.name: v.unit for v in self._outputs if v.unit}
-        )
+        notices = self._unsaid(said)
+        if isinstance(self.runtime, CompiledRuntime):
+            values, told = self._run_compiled(self.runtime, given, columns, blocks, cycles)
+        else:
+            values, told = self._run_in_python(given, columns, blocks, cycles)
+        named = {variable.name: column for variable, column in zip(self._outputs, values, strict=True)}
+        return Result(time, named, (*notices, *told, *self.runtime.notices()), self._units)
 
     @property
     def modulo(self) -> dict[str, float]:
@@ -224,40 +223,101 @@ class Engine:
 
     def _completed(self, trajectory: Mapping[str, ArrayLike]) -> tuple[dict[str, ArrayLike], list[str]]:
         """Add what follows from the setpoints and velocities of a trajectory (see ``completion``)."""
-        state = self.runtime.state
-        before = [
-            (motion.setpoint, motion.velocity) if axis.started else None
-            for axis, motion in zip(state.axis, state.motion.axis, strict=True)
-        ]
+        names = frozenset(trajectory)
+        if names in self._complete:
+            return dict(trajectory), []
+        state, count = self.runtime.state, len(self.machine.axes)
+        motions = (state.motion.axis[i] if state.axis[i].started else None for i in range(count))
+        before = [None if motion is None else (motion.setpoint, motion.velocity) for motion in motions]
         modulo = [table.modulo_range for table in self.runtime.tables.axis]
-        return completed(trajectory, self.variables, self.runtime.tables.cycle_time, before, modulo)
+        found, said = completed(trajectory, self.variables, self.runtime.tables.cycle_time, before, modulo)
+        if len(found) == len(names):
+            self._complete.add(names)
+        return found, said
+
+    def _run_row(self, runtime: CompiledRuntime, trajectory: Mapping[str, ArrayLike], said: Sequence[str]) -> Result:
+        """Run one cycle: a controller's loop calls for it again and again."""
+        given = {name: np.asarray(column).item() for name, column in trajectory.items() if name != TIME}
+        time = np.array([self.time])
+        row = self._row_of(runtime, given)
+        row.step(runtime, given)
+        return Result(time, row.columns(), (*self._unsaid(said), *runtime.notices()), self._units)
+
+    def _unsaid(self, said: Sequence[str]) -> list[str]:
+        """Return what has not been said before."""
+        new = [text for text in said if text not in self._said]
+        self._said.update(new)
+        return new
 
     def _run_compiled(
-        self, kernel: ctypes.CDLL, given: Sequence[Variable], columns: Sequence[NDArray[Any]]
-    ) -> dict[str, NDArray[Any]]:
-        if self._compiled is None or self._compiled.tables is not self.runtime.tables:
-            self._compiled = CompiledTables(self.runtime.tables, self.runtime.pool)
-        rows = np.column_stack([column.astype(np.float64) for column in columns])
-        results = run_compiled(kernel, self._compiled, self.runtime, given, np.ascontiguousarray(rows), self._outputs)
-        return {v.name: results[:, k].astype(type(v.start)) for k, v in enumerate(self._outputs)}
+        self,
+        runtime: CompiledRuntime,
+        given: Sequence[Variable],
+        columns: Sequence[NDArray[Any]],
+        blocks: Mapping[int, str],
+        cycles: int,
+    ) -> tuple[list[NDArray[Any]], list[str]]:
+        """Return the columns of the outputs and what commands had to say; most commands need no stop between rows."""
+        programs: dict[str, tuple[list[Poke], list[str]] | None] = {}
+        for row, block in blocks.items():
+            if block not in programs:
+                with _naming_row(row):
+                    programs[block] = self.nc.pokes(block)
+        given_fields = self._fields_of(runtime, given).of(columns)
+        result_fields, results = self._fields_of(runtime, self._outputs).new(cycles)
+        notices: list[str] = []
+        events: list[tuple[int, list[Poke]]] = []
+        first = 0
 
-    def _run_in_python(self, given: Sequence[Variable], columns: Sequence[NDArray[Any]]) -> dict[str, NDArray[Any]]:
-        cycles = len(columns[0])
+        def run_to(last: int) -> None:
+            if last > first:
+                runtime.run(given_fields.from_row(first), result_fields.from_row(first), last - first, events)
+                events.clear()
+
+        for row, block in blocks.items():
+            program = programs[block]
+            if program is not None:
+                events.append((row - first, program[0]))
+                notices += program[1]
+                continue
+            run_to(row)
+            self.set({variable.name: column[row].item() for variable, column in zip(given, columns, strict=True)})
+            with _naming_row(row):
+                notices += self.nc.execute(block)
+            runtime.run(NOTHING, result_fields.from_row(row), 1)
+            self.nc.after_cycle()
+            first = row + 1
+        run_to(cycles)
+        return results, notices
+
+    def _run_in_python(
+        self, given: Sequence[Variable], columns: Sequence[NDArray[Any]], blocks: Mapping[int, str], cycles: int
+    ) -> tuple[list[NDArray[Any]], list[str]]:
+        for row, block in blocks.items():
+            with _naming_row(row):
+                self.nc.check(block)
         setters = [self._slot_of(variable) for variable in given]
         getters = [self._slot_of(variable) for variable in self._outputs]
-        values = {variable.name: np.empty(cycles, type(variable.start)) for variable in self._outputs}
-        run_cycle = self.runtime.cycle
+        results = [np.empty(cycles, type(variable.start)) for variable in self._outputs]
+        notices: list[str] = []
         for first in range(0, cycles, CHUNK):
             last = min(first + CHUNK, cycles)
             kept: list[list[Value]] = []
-            for row in zip(*(column[first:last].tolist() for column in columns), strict=True):
-                for (_, write, record, key), value in zip(setters, row, strict=True):
+            rows: Iterable[tuple[Value, ...]] = [()] * CHUNK
+            if given:
+                rows = zip(*(column[first:last].tolist() for column in columns), strict=True)
+            for number, inputs in zip(range(first, last), rows, strict=False):
+                for (_, write, record, key), value in zip(setters, inputs, strict=True):
                     write(record, key, value)
-                run_cycle()
+                if number in blocks:
+                    with _naming_row(number):
+                        notices += self.nc.execute(blocks[number])
+                self.runtime.cycle()
+                self.nc.after_cycle()
                 kept.append([read(record, key) for read, _, record, key in getters])
-            for variable, column in zip(self._outputs, zip(*kept, strict=True), strict=True):
-                values[variable.name][first:last] = column
-        return values
+            for result, column in zip(results, zip(*kept, strict=True), strict=True):
+                result[first:last] = column
+        return results, notices
 
     def _slot(self, variable: Variable) -> Slot | None:
         records = (self.runtime.inputs, self.runtime.outputs)
@@ -279,29 +339,22 @@ class Engine:
         return variable
 
 
-def _column(values: ArrayLike, variable: Variable) -> NDArray[Any]:
-    if variable.type == "Integer":
-        return np.array([whole(value) for value in np.asarray(values, dtype=float).tolist()])
-    return np.asarray(values).astype(type(variable.start))
-
-
 def _length(columns: Mapping[str, ArrayLike]) -> int:
-    lengths = {name: np.shape(column) for name, column in columns.items()}
-    if not lengths:
+    shapes = [column.shape if isinstance(column, np.ndarray) else np.shape(column) for column in columns.values()]
+    if not shapes:
         raise ValueError("the trajectory has no input")
-    if len(set(lengths.values())) > 1 or any(len(shape) != 1 for shape in lengths.values()):
-        shapes = ", ".join(f"{name}: {shape}" for name, shape in lengths.items())
-        raise ValueError(f"the columns of a trajectory are one-dimensional and equally long, not {shapes}")
-    return int(next(iter(lengths.values()))[0])
+    if len(shapes[0]) != 1 or shapes.count(shapes[0]) < len(shapes):
+        listed = ", ".join(f"{name}: {shape}" for name, shape in zip(columns, shapes, strict=True))
+        raise ValueError(f"the columns of a trajectory are one-dimensional and equally long, not {listed}")
+    return int(shapes[0][0])
 
 
-def _pieces(blocks: Sequence[str], cycles: int) -> list[tuple[int, int]]:
-    """Return first and last row + 1 of the pieces of a trajectory; one that begins with a command is that row alone."""
-    borders = {0, cycles}
-    for row, block in enumerate(blocks):
-        if block.strip():
-            borders |= {row, row + 1}
-    return list(pairwise(sorted(borders))) or [(0, 0)]
+def _blocks(column: ArrayLike) -> dict[int, str]:
+    """Return the rows with NC commands."""
+    blocks = column if isinstance(column, list | tuple) else np.asarray(column).tolist()
+    found = [(row, str(block)) for row, block in enumerate(blocks) if block]
+    blank = {block for block in {block for _, block in found} if not block.strip()}
+    return {row: block for row, block in found if block not in blank}
 
 
 @contextmanager

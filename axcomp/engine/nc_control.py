@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from os import PathLike
 from typing import Any
 
@@ -10,6 +10,7 @@ from ..kernel import is_motion
 from ..kinds import KINDS
 from ..lists import Severity, reread_volumetric
 from ..model import Machine
+from ..native import POKES_MAX, Poke, address_of
 from ..runtime import Runtime
 from .nc_commands import (
     AxisCommand,
@@ -32,6 +33,8 @@ class NcControl:
     runtime : Runtime
     lists : path or None
         Where ``UPDATE`` reads; None: there are no lists.
+    allow_outside : sequence of path
+        As in ``read_machine``.
 
     Attributes
     ----------
@@ -39,9 +42,12 @@ class NcControl:
         Called with the number of a volumetric compensation that was updated; what it returns is told, a sentence each.
     """
 
-    def __init__(self, runtime: Runtime, lists: str | PathLike[str] | None) -> None:
+    def __init__(
+        self, runtime: Runtime, lists: str | PathLike[str] | None, allow_outside: Sequence[str | PathLike[str]] = ()
+    ) -> None:
         self._runtime = runtime
         self._lists = lists
+        self._allow_outside = allow_outside
         self.on_update: Callable[[int], Iterable[str]] = lambda _: ()
         self._files: dict[tuple[int, int], str] = {}
         self._held: list[tuple[Any, str, Any, Any]] = []
@@ -129,23 +135,48 @@ class NcControl:
             value = self._value(command.value) if isinstance(command.value, Variable) else command.value
             self.write(str(command.variable), str(value))
 
-    def _switch_axis(self, command: AxisCommand) -> Iterator[str]:
-        runtime = self._runtime
-        index = _axis_index(command, runtime.machine)
-        given, state = runtime.inputs.axis[index], runtime.state.axis[index]
-        configured = list(runtime.machine.axes[index].kinds)
-        if command.all_on:
-            listed = ", ".join(configured) or "nothing"
-            yield f"{command.axis}[COMP ON] names no kind of compensation: {listed} is switched on."
+    def pokes(self, block: str) -> tuple[list[Poke], list[str]] | None:
+        """Return what a block sets in the records of a compiled kernel, and what it has to say.
+
+        None: what it does depends on the moment, ``execute`` has to do it. NcError as from ``check``.
+        """
+        commands = self.check(block)
+        found: list[Poke] = []
+        said: list[str] = []
+        for command in commands:
+            if not isinstance(command, AxisCommand):
+                return None
+            index, wanted, notices = self._switched(command)
+            said += notices
+            inputs, state = self._runtime.inputs, self._runtime.state
+            found.append((address_of(inputs, f"axis[{index}].no_move"), int(command.no_move), True))
+            for number, on in wanted.items():
+                value = 1 if on else -1
+                found.append((address_of(inputs, f"axis[{index}].wanted[{number}]"), value, False))
+                found.append((address_of(state, f"axis[{index}].switching[{number}].wanted"), -value, False))
+        return (found, said) if len(found) <= POKES_MAX else None
+
+    def _switched(self, command: AxisCommand) -> tuple[int, dict[int, bool], list[str]]:
+        """Return the index of the axis of a command, which kinds go on or off, and what there is to say."""
+        machine = self._runtime.machine
+        index = _axis_index(command, machine)
+        configured = list(machine.axes[index].kinds)
+        listed = ", ".join(configured) or "nothing"
+        said = [f"{command.axis}[COMP ON] names no kind of compensation: {listed} is switched on."]
         wanted = dict.fromkeys(configured if command.all_off else command.off, False)
         wanted |= dict.fromkeys(configured if command.all_on else (), True) | dict.fromkeys(command.on, True)
+        switched = {KINDS[kind].number: on for kind, on in wanted.items() if kind in configured}
+        return index, switched, said if command.all_on else []
+
+    def _switch_axis(self, command: AxisCommand) -> Iterator[str]:
+        index, wanted, said = self._switched(command)
+        yield from said
+        given, state = self._runtime.inputs.axis[index], self._runtime.state.axis[index]
         self._hold(given, "no_move", command.no_move)
-        for kind, on in wanted.items():
-            if kind in configured:
-                number = KINDS[kind].number
-                given.wanted[number] = 1 if on else -1
-                # Changes of the input are the commands: one that repeats the last needs its change too.
-                state.switching[number].wanted = -given.wanted[number]
+        for number, on in wanted.items():
+            given.wanted[number] = 1 if on else -1
+            # Changes of the input are the commands: one that repeats the last needs its change too.
+            state.switching[number].wanted = -given.wanted[number]
 
     def _switch_volumetric(self, index: int, command: VolumetricSwitch) -> None:
         given, state = self._runtime.inputs.volumetric[index], self._runtime.state.volumetric[index]
@@ -161,7 +192,7 @@ class NcControl:
 
     def _update(self, command: VolumetricUpdate) -> Iterator[str]:
         files = {j: name for (i, j), name in self._files.items() if i == command.index}
-        volumetric, findings = reread_volumetric(self._lists or "", command.index, files)
+        volumetric, findings = reread_volumetric(self._lists or "", command.index, files, self._allow_outside)
         errors = [str(finding) for finding in findings if finding.severity is Severity.ERROR]
         if volumetric is None:
             what = f"volumetric compensation {command.index} keeps its old data"

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..lists import write_whole
 from ..model import Tabular, Tabulated, needed, symbol
+from ..saving import write_whole
 
 if TYPE_CHECKING:
     import os

@@ -7,13 +7,12 @@ that are interpolated otherwise than linearly over one axis, and corrections, ar
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from ..kernel import correction_at, correction_with, errors_at, zeros
-from ..model import ERRORS, LETTERS, LINEAR, Axis, AxisType, Interpolation, Machine, Volumetric, turn_of
-from ..runtime import compile_tables
+from ..model import ERRORS, LETTERS, LINEAR, Interpolation, Volumetric, turn_of
+from ..runtime import error_model
 from .motion import Array
 
 _STEP = 1e-4
@@ -28,10 +27,7 @@ class TcpModel:
     """
 
     def __init__(self, volumetric: Volumetric) -> None:
-        types = {letter: AxisType.TRANSLATORY if letter in LINEAR else AxisType.ROTARY for letter in LETTERS}
-        axes = tuple(Axis(number, letter, types[letter]) for letter, number in volumetric.axes)
-        tables, self._pool = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
-        self._table = tables.volumetric[0]
+        self._pool, self._table = error_model(volumetric)
         # Axes without known errors get some here.
         self._table.exact[:] = [False] * len(LETTERS)
         self._volumetric = volumetric

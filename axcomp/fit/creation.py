@@ -9,8 +9,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..lists import write_whole
 from ..model import Tabular, Tabulated
+from ..saving import write_all
 from .keeping import backed_up, changes, owners
 
 if TYPE_CHECKING:
@@ -135,8 +135,7 @@ class Creation(Tabular, Mapping[str, Mapping[str, float]]):
         files = self._files(path)
         if path is not None and Path(path).resolve() != self.path.resolve() and (named := owners(Path(path))):
             raise CannotCreateError(f"{path} is not overwritten: {', '.join(map(str, named))} names it")
-        for file, data in files.items():
-            write_whole(file, data)
+        write_all(files)
         return list(files)
 
     def backups(self, path: str | Path | None = None) -> list[Path]:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from difflib import unified_diff
 from pathlib import Path
 
-from ..lists import decode, entries, write_whole
+from ..lists import decode, entries
+from ..saving import write_whole
 
 _BACKUP = ".bak"
 _SIZE_MAX = 2_000_000

@@ -88,6 +88,7 @@ class VolumetricTarget:
     def _open(self) -> None:
         findings = Findings()
         files = Files(findings)
+        files.enter(self.path.parent)
         lists, index = self._machine(files)
         document = files.document(self.path)
         if document is None:

@@ -9,10 +9,15 @@ import os
 import subprocess
 import uuid
 import zipfile
+import zlib
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
+
+from ..lists import open_regular
+from ..native import MAGIC
+from ..saving import write_whole
 
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every entry: the earliest that ZIP knows."""
@@ -23,6 +28,16 @@ INSTALLED = "946684800"
 LEVEL = 6
 """Of the compression: 9 takes four times as long and saves 5 %."""
 UNIX = 3
+_MARKS = {
+    "modelDescription.xml": b'generationTool="axcomp',
+    "SystemStructure.ssd": b'generationTool="axcomp',
+    "docProps/core.xml": b">axcomp</dc:creator>",
+}
+"""What axcomp puts into the archives that it writes, an FMU, a system and a workbook."""
+_EDITED = b"lastModifiedBy"
+"""What others put into a workbook that they have saved."""
+_IMAGE = MAGIC[:-1]
+_PART_MAX = 100_000
 MODE = 0o100644 << 16
 
 
@@ -69,7 +84,12 @@ def _date_of_sources() -> str:
 
 
 def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
-    """Write an archive as ``write_file`` does; the model description comes first."""
+    """Write an archive as ``write_file`` does."""
+    write_file(output, archive_of(files))
+
+
+def archive_of(files: Mapping[str, bytes]) -> bytes:
+    """Return an archive of files; the model description comes first."""
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as archive:
         for name in sorted(files, key=lambda name: (name != "modelDescription.xml", name)):
@@ -78,18 +98,29 @@ def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
             entry.create_system = UNIX
             entry.external_attr = MODE
             archive.writestr(entry, files[name], compresslevel=LEVEL)
-    write_file(output, packed.getvalue())
+    return packed.getvalue()
+
+
+def is_own(path: Path) -> bool:
+    """Whether axcomp has written a file: an FMU, a system, an image, a diagnosis; OSError if it cannot be read."""
+    with open_regular(path) as file:
+        if file.read(len(_IMAGE)) == _IMAGE:
+            return True
+        try:
+            with zipfile.ZipFile(file) as archive:
+                name = next((name for name in _MARKS if name in archive.namelist()), "")
+                text = archive.open(name).read(_PART_MAX) if name else b""
+        except (zipfile.BadZipFile, ValueError, NotImplementedError, RuntimeError, zlib.error):
+            return False
+    return bool(name) and _MARKS[name] in text and _EDITED not in text
 
 
 def write_file(output: Path, data: bytes) -> None:
-    """Write a file and its folders; BuildError if that fails: one that was there before stays as it is then."""
-    unfinished = output.with_name(f"{output.name}.{os.getpid()}.part")
+    """Write a file and its folders; BuildError if that fails, or another's file is there: that stays as it is then."""
     try:
+        if output.is_file() and not is_own(output):
+            raise BuildError(f"{output} is there and was not written by axcomp; it stays as it is.")
         output.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(data)
-        unfinished.replace(output)
+        write_whole(output, data)
     except OSError as error:
         raise BuildError(f"{output} cannot be written: {error.strerror or error}") from None
-    finally:
-        with contextlib.suppress(OSError):
-            unfinished.unlink(missing_ok=True)

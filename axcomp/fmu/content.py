@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from .. import __version__
 from ..interface import Naming, Types, Variable, identifier, variables_of
@@ -25,6 +25,10 @@ NAME = "axcomp"
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 PACKAGE = Path(__file__).resolve().parents[1]
+
+
+Version = Literal["2.0", "3.0"]
+"""Of FMI."""
 
 
 class Built(NamedTuple):
@@ -88,6 +92,7 @@ def read_content(
     axis_type: TypeName | None = None,
     name: str = NAME,
     types: Types = "own",
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Read and compile the lists of a machine; ``name``: of the model, an identifier of C.
 
@@ -98,7 +103,7 @@ def read_content(
     """
     if not _IDENTIFIER.fullmatch(name):
         raise BuildError(f"{name!r} is no model name: it takes letters, digits and _, and begins with no digit.")
-    reading = read_machine(lists, axis_type=axis_type)
+    reading = read_machine(lists, axis_type=axis_type, allow_outside=allow_outside)
     machine = reading.machine
     if not machine.axes:
         raise BuildError("\n".join([*map(str, reading.findings), f"{lists}: there is no axis in these lists."]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
@@ -101,34 +101,51 @@ def model_description(description: Description, variables: Sequence[Variable], g
         generationDateAndTime=description.generated,
         variableNamingConvention=description.naming,
     )
-    capabilities = {name: _text(value) for name, value in {**CAPABILITIES, **description.capabilities}.items()}
+    capabilities = {name: text_of(value) for name, value in {**CAPABILITIES, **description.capabilities}.items()}
     co_simulation = SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
     if description.source_files:
         sources = SubElement(co_simulation, "SourceFiles")
         for name in description.source_files:
             SubElement(sources, "File", name=name)
-    _add_units(root, variables)
+    add_units(root, {variable.unit for variable in variables})
+    add_log_categories(root)
+    add_experiment(root, description.step_size)
+    _add_variables(root, variables)
+    _add_structure(root, variables)
+    return document(root)
+
+
+def document(root: Element) -> bytes:
+    """Return an XML file."""
+    ElementTree.indent(root)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'.encode()
+
+
+def add_log_categories(root: Element) -> None:
+    """Add the categories of messages."""
     categories = SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         SubElement(categories, "Category", name=name, description=text)
-    stop_time = STEPS * description.step_size
-    SubElement(
-        root, "DefaultExperiment", startTime="0.0", stopTime=_text(stop_time), stepSize=_text(description.step_size)
-    )
-    _add_variables(root, variables)
-    _add_structure(root, variables)
-    ElementTree.indent(root)
-    text = ElementTree.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
 
 
-def _add_units(root: Element, variables: Sequence[Variable]) -> None:
-    used = {variable.unit for variable in variables}
+def add_experiment(root: Element, step_size: float) -> None:
+    """Add the default experiment."""
+    times = {"startTime": "0.0", "stopTime": text_of(STEPS * step_size), "stepSize": text_of(step_size)}
+    SubElement(root, "DefaultExperiment", times)
+
+
+def quantity_of(variable: Variable) -> str | None:
+    """Return the name of what is measured in the variable's unit."""
+    return QUANTITIES.get(variable.unit, "ElectricCurrent" if variable.quantity == "current" else None)
+
+
+def add_units(root: Element, used: Collection[str]) -> None:
+    """Add the definitions of those units that are used."""
     definitions = SubElement(root, "UnitDefinitions")
     for name, base in UNITS.items():
         if name in used:
             unit = SubElement(definitions, "Unit", name=name)
-            SubElement(unit, "BaseUnit", {key: _text(value) for key, value in base.items()})
+            SubElement(unit, "BaseUnit", {key: text_of(value) for key, value in base.items()})
 
 
 def _add_variables(root: Element, variables: Sequence[Variable]) -> None:
@@ -147,17 +164,16 @@ def _add_variables(root: Element, variables: Sequence[Variable]) -> None:
         if variable.causality != "input":
             node.set("initial", "calculated" if output else "exact")
         kind = SubElement(node, variable.type)
-        quantity = QUANTITIES.get(variable.unit, "ElectricCurrent" if variable.quantity == "current" else "")
-        attributes: dict[str, float | str | None] = {"quantity": quantity or None, "unit": variable.unit or None}
+        attributes: dict[str, float | str | None] = {"quantity": quantity_of(variable), "unit": variable.unit or None}
         if variable.limits is not None:
             attributes["min"], attributes["max"] = variable.limits
         if variable.type == "Real":
             attributes["nominal"] = variable.nominal
         for name, value in attributes.items():
             if value is not None:
-                kind.set(name, _text(value))
+                kind.set(name, text_of(value))
         if not output:
-            kind.set("start", _text(variable.start))
+            kind.set("start", text_of(variable.start))
 
 
 def _add_structure(root: Element, variables: Sequence[Variable]) -> None:
@@ -175,6 +191,6 @@ def _add_structure(root: Element, variables: Sequence[Variable]) -> None:
                 unknown.set("dependencies", " ".join(index[name] for name in variable.depends_on))
 
 
-def _text(value: Value) -> str:
+def text_of(value: Value) -> str:
     """Write a value so that reading it gives the same one."""
     return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else repr(value)

@@ -19,7 +19,7 @@ from ..kinds import Severity
 from ..lists import read_machine
 from ..model import Machine
 from ..runtime import ON_INSTANT, Runtime
-from .packed_interface import FILE_NAME, Interface
+from .packed_interface import FILE_NAME, FOLDER, Interface
 from .saved import Saved
 
 FINDINGS_MAX = 100
@@ -89,7 +89,7 @@ class Instance:
 
     def _read(self, path: Path) -> tuple[Machine, list[str], int]:
         """Return the machine of a list, what does not fit the variables, and the number of errors found."""
-        reading = read_machine(path, axis_type=self._interface.axis_type)
+        reading = read_machine(path, axis_type=self._interface.axis_type, allow_outside=[self._resources / FOLDER])
         findings = reading.findings
         for finding in findings[:FINDINGS_MAX]:
             self.tell(finding.severity, str(finding))
@@ -200,16 +200,19 @@ class Instance:
     def do_step(self, time: float, duration: float) -> bool:
         """Run the cycles whose instants lie in [time, time + duration) with the inputs held.
 
-        False: nothing was done, for it would go back in time or beyond the stop time.
+        False: nothing was done, for it would go back in time, beyond the stop time, or be too long.
         """
         tolerance, end = ON_INSTANT * self.runtime.tables.cycle_time, time + duration  # hosts add up their steps
+        due = self.runtime.due(end)
         refused = ""
         if time < self._time - tolerance:
             refused = f"a step from {time:g} s would go back, the last one ended at {self._time:g} s"
         elif end > self._stop_time + tolerance:
             refused = f"a step to {end:g} s goes beyond the stop time, {self._stop_time:g} s"
+        elif due > self.controls.largest_step:
+            refused = f"a step of {due} cycles is refused; largest_step is {self.controls.largest_step}"
         if refused:
-            self.tell(Severity.ERROR, refused)
+            self.tell(Severity.ERROR, f"do_step: {refused}")
             return False
         if self.controls.reload and not self._reload_seen:
             self._reload_seen = True
@@ -245,6 +248,7 @@ class Instance:
         machine = self.runtime.machine
         saved = Saved(
             self.controls.cycle_time,
+            self.controls.largest_step,
             self.controls.reload,
             self.controls.update_path,
             self._reload_seen,
@@ -268,6 +272,7 @@ class Instance:
         runtime.restore(saved.snapshot)
         self._run(runtime)
         self.controls.cycle_time = saved.cycle_time
+        self.controls.largest_step = saved.largest_step
         self.controls.reload = saved.reload
         self.controls.update_path = saved.update_path
         self._reload_seen = saved.reload_seen

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from ..interface import Naming, Types
+from ..interface import Naming, Types, arrays_of
 from ..lists import TypeName
 from ..model import CYCLE_TIME
 from ..native import (
     LIBRARY_SOURCES,
     PLATFORMS,
-    SOURCES,
     CompilerError,
     compile_library,
     compiler_of,
@@ -29,9 +28,10 @@ from ..native import (
 )
 from .archive import BuildError, content_guid, file_bytes, write_file, write_fmu
 from .bill import BILL, bill_of_fmu
-from .content import NAME, Built, output_path, read_content
-from .description import model_description
-from .embedded import TABLES_SOURCE, embedded_sources
+from .content import NAME, Built, Version, output_path, read_content
+from .description import Description, model_description
+from .description3 import model_description_3
+from .embedded import embedded_sources, sources_of
 
 IMAGE = "tables.bin"
 """Name of the image in ``resources``, which the prebuilt libraries read."""
@@ -52,6 +52,8 @@ def package_native(
     name: str = NAME,
     types: Types = "own",
     with_lists: bool = True,
+    fmi: Version = "2.0",
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the FMU of a machine; a folder as output: a file of the model's name in it.
 
@@ -67,7 +69,7 @@ def package_native(
         ``structured`` or ``flat``.
     platforms : sequence of str
         Those of ``PLATFORMS`` that get a library; none: all of them.
-    axis_type : str or None
+    axis_type, allow_outside
         As in ``read_machine``.
     name : str
         Name and identifier of the model; all that is visible outside its sources begins with it.
@@ -76,6 +78,9 @@ def package_native(
     with_lists : bool
         False: of the lists only the tables that were compiled from them go into the FMU.
 
+    fmi : str
+        Version of FMI: ``2.0`` or ``3.0``. One library serves both.
+
     Raises
     ------
     NoCompilerError
@@ -83,22 +88,32 @@ def package_native(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type, name, types)
+    content = read_content(lists, cycle_time, naming, axis_type, name, types, allow_outside)
     files = {f"resources/{file}": data for file, data in content.lists.items()} if with_lists else {}
     libraries = _libraries(platforms)
     for platform, library in libraries.items():
-        files[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = library
+        for folder in PLATFORMS[platform].third if fmi == "3.0" else (platform,):
+            files[f"binaries/{folder}/{name}{PLATFORMS[platform].suffix}"] = library
     description = replace(
         content.description,
         capabilities={"needsExecutionTool": False, "canInterpolateInputs": True},
-        source_files=(*SOURCES, TABLES_SOURCE),
+        source_files=sources_of(fmi),
     )
-    guid = _guid(content)
+    arrays = arrays_of(content.machine, *content.compiled, naming) if fmi == "3.0" else ()
+
+    def described(told: Description, guid: str) -> bytes:
+        if fmi == "3.0":
+            return model_description_3(told, content.variables, arrays, guid)
+        return model_description(told, content.variables, guid)
+
+    guid = _guid(content, described)
     image = image_of(content.compiled, guid, content.findings, real_only=types == "real")
     files[f"resources/{IMAGE}"] = image
-    files.update(embedded_sources(content, guid, real_only=types == "real"))
-    files["modelDescription.xml"] = model_description(description, content.variables, guid)
+    files.update(embedded_sources(content, guid, fmi, real_only=types == "real"))
+    files["modelDescription.xml"] = described(description, guid)
     files.update(content.accompanying(with_tables=with_lists))
+    if fmi == "3.0":
+        del files["model.png"]  # its icon is that of the terminals
     path = output_path(output, f"{name}.fmu")
     write_fmu(path, {**files, BILL: bill_of_fmu(files)})
     reason = why_not_prebuilt()
@@ -111,6 +126,7 @@ def write_image(
     *,
     cycle_time: float = CYCLE_TIME,
     axis_type: TypeName | None = None,
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the image of a machine's tables, which the input ``reload`` takes; a folder: ``tables.bin`` in it.
 
@@ -121,15 +137,16 @@ def write_image(
     BuildError
         If there is no machine, it cannot be run, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, axis_type=axis_type)
+    content = read_content(lists, cycle_time, axis_type=axis_type, allow_outside=allow_outside)
     path = output_path(output, IMAGE)
-    write_file(path, image_of(content.compiled, _guid(content), content.findings))
+    guid = _guid(content, lambda told, guid: model_description(told, content.variables, guid))
+    write_file(path, image_of(content.compiled, guid, content.findings))
     return content._replace(path=path)
 
 
-def _guid(content: Built) -> str:
+def _guid(content: Built, described: Callable[[Description, str], bytes]) -> str:
     """Return a guid that depends on variables and tables, not on date, compiler and platforms."""
-    description = model_description(replace(content.description, generated=""), content.variables, "")
+    description = described(replace(content.description, generated=""), "")
     return content_guid({"modelDescription.xml": description, IMAGE: image_of(content.compiled, "", content.findings)})
 
 

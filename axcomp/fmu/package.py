@@ -30,18 +30,19 @@ def package_axcomp(
     axis_type: TypeName | None = None,
     name: str = NAME,
     types: Types = "own",
+    allow_outside: Sequence[str | os.PathLike[str]] = (),
 ) -> Built:
     """Write the FMU of a machine that runs in Python; parameters as in ``package_native``.
 
     ``external_tool`` False: the FMU does not say that it needs Python; some hosts refuse FMUs that need something;
-    ``axis_type``: as in ``read_machine``.
+    ``axis_type``, ``allow_outside``: as in ``read_machine``.
 
     Raises
     ------
     BuildError
         If there is no machine, it cannot be run, pythonfmu is missing, or the file cannot be written.
     """
-    content = read_content(lists, cycle_time, naming, axis_type, name, types)
+    content = read_content(lists, cycle_time, naming, axis_type, name, types, allow_outside)
     interface = Interface.of(content.machine, content.start, cycle_time, axis_type, types)
     resources = {**content.lists, FILE_NAME: interface.to_json().encode()}
     description = replace(content.description, capabilities={"needsExecutionTool": external_tool})

@@ -16,6 +16,9 @@ from ..model import AXES_MAX, CYCLE_TIME, Axis, AxisType, Machine
 FILE_NAME = "axcomp.json"
 """Name of the file in ``resources``."""
 
+FOLDER = "machine"
+"""Folder of the lists in ``resources``."""
+
 
 @dataclass(frozen=True)
 class Interface:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from ..kinds import ListKind
 from ..lists import Document, Project, Reading, read_machine
 from .archive import BuildError
-
-FOLDER = "machine"
-"""Folder of the lists in ``resources``."""
+from .packed_interface import FOLDER
 
 _NAMING = (ListKind.START_UP, ListKind.VOLUMETRIC)
 """Lists that name others."""
@@ -29,19 +28,26 @@ def packed_lists(reading: Reading) -> tuple[str, dict[str, bytes]]:
     found = {_absolute(path): document for path, document in reading.documents.items() if document.outer is None}
     first = start.parent if start in found else start
     try:
-        root = Path(os.path.commonpath([first, *(path.parent for path in found)]))
+        common = Path(os.path.commonpath([first, *(path.parent for path in found)]))
     except ValueError:
         raise BuildError(f"{reading.path}: the lists lie on different drives.") from None
-    files = {_packed(root, path): document for path, document in found.items()}
-    packed = _packed(root, start)
-    lost = set(files) - _found_again(packed, files)
-    if lost:
-        originals = [str(path) for path in found if _packed(root, path) in lost]
-        raise BuildError(
-            f"{reading.path} names {', '.join(originals)} by an absolute path; in an FMU, names must be relative to "
-            "the list they stand in."
-        )
-    return packed, {name: document.to_bytes() for name, document in files.items()}
+    # Names may go up further than all the files lie.
+    for root in (common, *common.parents):
+        packed = _packed(root, start)
+        places = {path: _packed(root, path) for path in found}
+        lost = _lost(packed, places, found)
+        if not lost:
+            break
+    else:
+        # What is named from the root is found again beside the list.
+        packed, places = _packed(common, start), {path: _packed(common, path) for path in found}
+        places.update((path, f"{_packed(common, first)}/{path.name}") for path in lost)
+        if len(set(places.values())) < len(places) or _lost(packed, places, found):
+            raise BuildError(
+                f"{reading.path} names {', '.join(map(str, lost))} by an absolute path; in an FMU, names must be "
+                "relative to the list they stand in."
+            )
+    return packed, {places[path]: document.to_bytes() for path, document in found.items()}
 
 
 def _absolute(path: Path) -> Path:
@@ -53,10 +59,14 @@ def _packed(root: Path, path: Path) -> str:
     return str(PurePosixPath(FOLDER, path.relative_to(root).as_posix()))
 
 
-def _found_again(packed: str, files: dict[str, Document]) -> set[str]:
-    """Return which files are read when they lie somewhere else. What tables hold does not matter to that."""
+def _lost(packed: str, places: Mapping[Path, str], found: Mapping[Path, Document]) -> list[Path]:
+    """Return which files are not read when they lie somewhere else. What tables hold does not matter to that."""
     moved = [
-        Document(name, document.to_bytes() if document.kind in _NAMING or isinstance(document, Project) else b"")
-        for name, document in files.items()
+        Document(
+            places[path], document.to_bytes() if document.kind in _NAMING or isinstance(document, Project) else b""
+        )
+        for path, document in found.items()
     ]
-    return {Path(os.path.normpath(path)).as_posix() for path in read_machine(packed, documents=moved).documents}
+    again = read_machine(packed, documents=moved, allow_outside=[FOLDER]).documents
+    read = {Path(os.path.normpath(path)).as_posix() for path in again}
+    return [path for path in found if places[path] not in read]

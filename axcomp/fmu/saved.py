@@ -26,6 +26,7 @@ class Saved:
     """
 
     cycle_time: float
+    largest_step: int
     reload: bool
     update_path: str
     reload_seen: bool

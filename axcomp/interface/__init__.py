@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .arrays import TABLE_BLOCK, TIME_REFERENCE, ArrayVariable, arrays_of, every_array
 from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -14,7 +15,7 @@ from .declarations import (
 from .errors import ERROR_CALL, ERRORS
 from .reference import PAGE, README, readme_with_section, reference_page
 from .slot import Slot, slot_in, steps_of
-from .variable import BLOCK, TYPE_NAMES, Value, Variable, whole, with_causality
+from .variable import BLOCK, INTEGER_MAX, TYPE_NAMES, Value, Variable, whole, with_causality
 from .variables import Controls, Naming, Types, by_name, every_slot, identifier, slot_of, variables_of
 
 __all__ = [
@@ -23,13 +24,17 @@ __all__ = [
     "BLOCK",
     "ERRORS",
     "ERROR_CALL",
+    "INTEGER_MAX",
     "MACHINE_BLOCK",
     "OF_MACHINE",
     "OF_VOLUMETRIC",
     "PAGE",
     "README",
+    "TABLE_BLOCK",
+    "TIME_REFERENCE",
     "TYPE_NAMES",
     "VOLUMETRIC_BLOCK",
+    "ArrayVariable",
     "Controls",
     "Declaration",
     "Naming",
@@ -37,7 +42,9 @@ __all__ = [
     "Types",
     "Value",
     "Variable",
+    "arrays_of",
     "by_name",
+    "every_array",
     "every_slot",
     "identifier",
     "readme_with_section",

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ..kernel import LARGEST, LARGEST_TOOL
 from ..kinds import KINDS
-from ..model import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX
+from ..model import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, LARGEST_STEP
 from .variable import Causality, Limits, Value, Variability
 
 MACHINE_BLOCK = 0
@@ -86,6 +86,14 @@ OF_MACHINE = (
         variability="fixed",
         limits=(1e-9, CYCLE_TIME_MAX),
         nominal=CYCLE_TIME,
+    ),
+    Declaration(
+        7,
+        "largest_step",
+        "parameter",
+        LARGEST_STEP,
+        "Cycles that a communication step may have; a longer one is refused",
+        variability="fixed",
     ),
     Declaration(
         6,

@@ -43,6 +43,7 @@ class Dependencies:
         self.machine = machine
         self.index = index
         self.axis: Axis = machine.axes[index]
+        self._place: dict[int | None, int] = {axis.number: place for place, axis in enumerate(machine.axes)}
 
     def of(self, output: str) -> Inputs:
         """Return the inputs that the output called ``output`` (``corrected_setpoint``, ``cross.active`` …) needs."""
@@ -106,4 +107,5 @@ class Dependencies:
         return frozenset((self.index, name) for name in names)
 
     def _places(self, *numbers: int | None) -> list[int]:
-        return [place for place, axis in enumerate(self.machine.axes) if axis.number in numbers]
+        places = [self._place[number] for number in numbers if number in self._place]
+        return sorted(set(places))

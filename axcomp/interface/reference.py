@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ..kinds import KIND_NAMES, KINDS
+from ..kernel import LARGEST
+from ..kinds import KIND_NAMES, KINDS, TableArray
 from ..model import models
+from .arrays import TABLE_BLOCK, every_array
 from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -32,7 +34,7 @@ Written by `python -m axcomp.interface` from `axcomp/interface/declarations.py`.
 `NAME` is the name of an axis (`kopf.log_achs_name`, else `axis<number>`) with `_` for what an identifier cannot hold.
 Only what is configured appears. Units are those of the axis: mm or deg, mm/s or deg/s, mm/s2 or deg/s2, each defined by
 its factor to SI units, so that tools convert. With `--naming flat` every `.` is a `_`; with `--types real` Booleans
-and Integers are Real: a number then means the nearest integer, and false where that is 0.
+and Integers are Real: a number then means the nearest integer, and false where that is 0; `update_path` is left out.
 
 Every input starts with 0 or false, which means what the lists say: a host that does not connect one changes nothing.
 A switch (`NAME.KIND.switch`, `volumetric[j].switch`) is 0 for automatic activation as the lists say, 1 for on, -1 for
@@ -58,7 +60,7 @@ STEPS = """\
 * Steps that go back in time, or beyond the stop time if there is one, are refused; a hundredth of a cycle is no matter,
   for hosts add up their steps. Going back is a matter of `fmi2SetFMUstate`.
 * The outputs read after a step belong to the inputs set before it: FMI 2.0 co-simulation has no feedthrough inside a
-  step. At the end of initialization they belong to the start values.
+  step, FMI 3.0 has it in event mode. At the end of initialization they belong to the start values.
 * `reload`: its rising edge acts at the beginning of a step. What it reads is refused as a whole when it has an error,
   other axes or a compensation that was not there before. A relative `update_path` counts from the host's current
   folder.
@@ -98,8 +100,8 @@ table as text and no finding is in the FMU, only the compiled tables.
 ## What else is in the FMU
 
 * `documentation/index.html`: the findings, tables and variables of this machine; `documentation/licenses`.
-* `model.png`, and `terminalsAndIcons/terminalsAndIcons.xml` (FMI 2.0.4) with a terminal for each axis, whose ports are
-  its variables.
+* `model.png` (not in FMI 3.0), and `terminalsAndIcons/terminalsAndIcons.xml` (FMI 2.0.4) with a terminal for each
+  axis, whose ports are its variables.
 * The date of generation is SOURCE_DATE_EPOCH where that is set, else the last commit of the checkout, else, of an
   installed package, 2000-01-01: a rebuild has the same bytes. The guid does not depend on it.
 * `min` and `max` are what is of use: beyond them an input is not taken. `current` has no unit: it is in the drive's
@@ -113,6 +115,33 @@ table as text and no finding is in the FMU, only the compiled tables.
 | ---: | --- |
 """
 
+
+THIRD = """\
+## FMI 3.0
+
+`axcomp build --fmi 3.0` makes the native FMU for FMI 3.0, `--fmi 2.0 3.0` one for each. Names, value references and
+bits are the same, and so is the library; Real is Float64, Integer Int32. `time` is the independent variable.
+
+* Event mode: inputs are set, and after `fmi3UpdateDiscreteStates` the outputs belong to them, without the delay of a
+  cycle. The step that follows runs the very cycle. `fmi3DoStep` asks for event mode (`eventHandlingNeeded`) where a
+  cycle begins at its end; an event between two cycles is heard by the next. A host that does not use event mode has
+  what FMI 2.0 has.
+* Tables are parameters, tunable arrays of Float64: a host reads and calibrates them, before the start or while the
+  machine runs, in event mode or between two steps. A change blends in as an update does. All that one call of
+  `fmi3SetFloat64` sets comes into force together. Numbers that are not finite, beyond {largest:g}, negative speeds, and
+  abscissae that do not ascend are refused, all of the call: `fmi3Discard`, the old numbers stay, the log says why. A
+  table that repeats with the modulo range ends with its first point, one turn on.
+* The arrays are as long as the tables of the lists. After `reload` with other lengths they cannot be read or set until
+  the lengths are those again. `fmi3Reset` brings the tables of the lists back; a state those that were in force, in the
+  instance that has saved it.
+* Clocks, configuration mode, intermediate update, early return, derivatives and other kinds of simulation: there are
+  none, their functions return `fmi3Error`.
+
+The value reference of an array is `{block} · ({tables} + i) + identifier` for axis i.
+
+| Array | Unit | Identifier | Meaning |
+| --- | --- | ---: | --- |
+"""
 
 FIRST = KIND_NAMES[0]
 
@@ -133,7 +162,12 @@ def reference_page() -> str:
     of_others = "of the other axes that take part `stop_request` only"
     tables += f"\n### With volumetric compensation: X, Y, Z and their gantry slaves; {of_others}\n\n{volumetric}\n"
     tables += f"\n## Of every volumetric compensation\n\n{volumetrics}\n"
-    return f"{head}\n{tables}\n{STEPS}{errors}\n"
+    arrays = "".join(
+        f"| `NAME.{kind}.{array.name}` | {_units(array)} | {identifier} | {array.description} |\n"
+        for kind, identifier, array in every_array()
+    )
+    third = THIRD.format(largest=LARGEST, block=BLOCK, tables=TABLE_BLOCK) + arrays
+    return f"{head}\n{tables}\n{STEPS}{errors}\n\n{third}"
 
 
 def readme_section() -> str:
@@ -183,7 +217,7 @@ def _rows(declarations: Iterable[Declaration], prefix: str) -> Iterator[str]:
         )
 
 
-def _units(declaration: Declaration) -> str:
+def _units(declaration: Declaration | TableArray) -> str:
     return ", ".join(dict.fromkeys(declaration.unit.format(unit) for unit in ("mm", "deg")))
 
 

@@ -8,7 +8,7 @@ from typing import Literal
 
 from ..kernel import Inputs, Outputs
 from ..kinds import kinds_of
-from ..model import COMPENSATIONS_MAX, CYCLE_TIME, Axis, Machine, Volumetric
+from ..model import COMPENSATIONS_MAX, CYCLE_TIME, LARGEST_STEP, Axis, Machine, Volumetric
 from .declarations import (
     AXIS_BLOCK,
     AXIS_DECLARATIONS,
@@ -36,6 +36,7 @@ class Controls:
     """The variables that the kernel does not know."""
 
     cycle_time: float = CYCLE_TIME
+    largest_step: int = LARGEST_STEP
     reload: bool = False
     update_path: str = ""
 
@@ -54,10 +55,10 @@ def variables_of(
     cycle_time : float
         Start value of the parameter of that name, s.
     types : str
-        ``own``, or ``real``: Booleans and Integers are Real, for importers that take everything as Real.
+        ``own``, or ``real``: Booleans and Integers are Real, Strings left out, for importers that take all as Real.
     """
     starts: dict[str, Value] = {"cycle_time": cycle_time}
-    every_axis = list(enumerate(zip(machine.axes, _prefixes(machine, naming), strict=True)))
+    every_axis = list(enumerate(zip(machine.axes, prefixes_of(machine, naming), strict=True)))
     of_machine = [d for d in OF_MACHINE if d.kind != VOLUMETRIC or machine.volumetric]
     inputs: dict[Input, str] = {(None, d.name): d.name for d in of_machine if d.causality == "input"}
     inputs.update(
@@ -91,7 +92,7 @@ def variables_of(
     for one in machine.volumetric:
         variables += _of_volumetric(machine, one, inputs, naming)
     if types == "real":
-        variables = [v if isinstance(v.start, str) else _as_real(v) for v in variables]
+        variables = [_as_real(v) for v in variables if not isinstance(v.start, str)]
     return tuple(variables)
 
 
@@ -130,8 +131,10 @@ def slot_of(
     for record in records:
         candidate: object = record
         if axis is not None or volumetric is not None:
-            if not isinstance(record, Inputs if declared.causality == "input" else Outputs):
+            # By its name: the records of a compiled kernel are no dataclasses, but called alike.
+            if type(record).__name__ != ("Inputs" if declared.causality == "input" else "Outputs"):
                 continue
+            assert not isinstance(record, Controls)
             candidate = record.axis[axis] if axis is not None else record.volumetric[volumetric or 0]
         found = slot_in(candidate, declared.field)
         if found is not None:
@@ -200,7 +203,7 @@ def _name(prefix: str, declaration: Declaration, naming: Naming) -> str:
     return f"{prefix}.{declaration.name}" if naming == "structured" else f"{prefix}_{declaration.flat}"
 
 
-def _prefixes(machine: Machine, naming: Naming) -> list[str]:
+def prefixes_of(machine: Machine, naming: Naming) -> list[str]:
     """Return the axes' names as identifiers, so that no two variables get the same name."""
     prefixes: list[str] = []
     taken = {declaration.name for declaration in OF_MACHINE}

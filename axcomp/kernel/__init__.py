@@ -26,10 +26,10 @@ from .crosstalk import (
     CROSSTALK_TRIANGLES,
     CrosstalkTable,
 )
-from .cycle import LARGEST, cycle
-from .fit import tables_fit
+from .cycle import cycle
+from .fit import given_fits, state_fits, tables_fit
 from .friction import DELAY_LINE, LOOKAHEAD_MAX
-from .interpolation import Curve, Lookup, curve_value, fold, nearest
+from .interpolation import LARGEST, Curve, Lookup, curve_value, fold, nearest
 from .motion import Argument, is_motion
 from .record import APART, Vec, fields_of, zero, zeros
 from .records import (
@@ -73,6 +73,8 @@ EXPORTS = (
     "adopt_volumetrics",
     "move_axis_table",
     "tables_fit",
+    "state_fits",
+    "given_fits",
 )
 """The functions that C calls by name; the translation has them and what they call."""
 
@@ -136,6 +138,7 @@ __all__ = [
     "fields_of",
     "find_cell",
     "fold",
+    "given_fits",
     "has_notice",
     "is_motion",
     "keep_declared",
@@ -143,6 +146,7 @@ __all__ = [
     "nearest",
     "ramp",
     "sine",
+    "state_fits",
     "tables_fit",
     "update_error",
     "zero",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .interpolation import LARGEST
 from .switching import CYCLES_MAX, mapped_step, ramp
 
 
@@ -50,4 +51,9 @@ def adopt_backlash(before: BacklashTable, after: BacklashTable, state: BacklashS
 
 def backlash_fits(table: BacklashTable) -> bool:
     """Tell whether the table can be used."""
-    return 1 <= table.reversal_cycles <= CYCLES_MAX and table.amount - table.amount == 0.0
+    return 1 <= table.reversal_cycles <= CYCLES_MAX and abs(table.amount) < LARGEST
+
+
+def backlash_state_fits(table: BacklashTable, state: BacklashState) -> bool:
+    """Tell whether the state belongs to such a table."""
+    return 0 <= state.step <= table.reversal_cycles

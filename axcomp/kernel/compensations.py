@@ -8,9 +8,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .backlash import BacklashState, BacklashTable, adopt_backlash, backlash_at, backlash_fits, backlash_value
-from .cross import CrossState, CrossTable, adopt_cross, cross_fits, cross_value, move_cross
-from .crosstalk import CrosstalkState, CrosstalkTable, adopt_crosstalk, crosstalk_fits, crosstalk_value, move_crosstalk
+from .backlash import (
+    BacklashState,
+    BacklashTable,
+    adopt_backlash,
+    backlash_at,
+    backlash_fits,
+    backlash_state_fits,
+    backlash_value,
+)
+from .cross import CrossState, CrossTable, adopt_cross, cross_fits, cross_state_fits, cross_value, move_cross
+from .crosstalk import (
+    CrosstalkState,
+    CrosstalkTable,
+    adopt_crosstalk,
+    crosstalk_fits,
+    crosstalk_state_fits,
+    crosstalk_value,
+    move_crosstalk,
+)
 from .friction import (
     FrictionInputs,
     FrictionState,
@@ -18,6 +34,7 @@ from .friction import (
     adopt_friction,
     friction_current,
     friction_fits,
+    friction_state_fits,
     move_friction,
 )
 from .leadscrew import (
@@ -28,6 +45,7 @@ from .leadscrew import (
     leadscrew_at,
     leadscrew_fits,
     leadscrew_input,
+    leadscrew_state_fits,
     leadscrew_value,
     move_leadscrew,
 )
@@ -216,3 +234,25 @@ def compensation_fits(kind: int, pool: Vec, tables: CompensationTables, axes: in
     if kind == BACKLASH:
         return backlash_fits(tables.backlash)
     return friction_fits(pool, tables.friction, numbers)
+
+
+def compensation_absent(kind: int, tables: CompensationTables) -> bool:
+    """Tell whether a kind without a table has no lengths either: an update goes by them."""
+    if kind == LEADSCREW:
+        return tables.leadscrew.reversal_cycles == 0
+    if kind == BACKLASH:
+        return tables.backlash.reversal_cycles == 0
+    return kind != FRICTION or (tables.friction.curve.points == 0 and tables.friction.lookahead == 0)
+
+
+def compensation_state_fits(kind: int, tables: CompensationTables, states: CompensationStates) -> bool:
+    """Tell whether the state of a kind belongs to its table: every index means something in it."""
+    if kind == CROSS:
+        return cross_state_fits(tables.cross, states.cross)
+    if kind == CROSSTALK:
+        return crosstalk_state_fits(tables.crosstalk, states.crosstalk)
+    if kind == LEADSCREW:
+        return leadscrew_state_fits(tables.leadscrew, states.leadscrew)
+    if kind == BACKLASH:
+        return backlash_state_fits(tables.backlash, states.backlash)
+    return kind != FRICTION or friction_state_fits(tables.friction, states.friction)

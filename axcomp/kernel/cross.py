@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve
+from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, lookup_fits, move_curve
 from .motion import Argument, Motion, argument_fits, position_of
 from .record import Vec
 
@@ -42,3 +42,8 @@ def move_cross(table: CrossTable, by: int) -> None:
 def cross_fits(pool: Vec, table: CrossTable, axes: int, numbers: int) -> bool:
     """Tell whether the table can be used."""
     return argument_fits(table.master, axes) and curve_fits(pool, table.curve, numbers)
+
+
+def cross_state_fits(table: CrossTable, state: CrossState) -> bool:
+    """Tell whether the state belongs to such a table."""
+    return lookup_fits(state.lookup, table.curve.points)

@@ -17,8 +17,10 @@ from .interpolation import (
     curve_value,
     find_interval,
     forget,
+    lookup_fits,
     move_curve,
     range_fits,
+    within,
 )
 from .motion import Argument, Motion, argument_fits, position_of
 from .record import Vec
@@ -103,7 +105,7 @@ def test_value(
 
 def line_value(pool: Vec, abscissae: int, values: int, points: int, x: float, lookup: Lookup) -> float:
     """Return the value linear between the points, the end values held outside."""
-    x = min(max(x, pool[abscissae]), pool[abscissae + points - 1])
+    x = within(x, pool[abscissae], pool[abscissae + points - 1])
     i = find_interval(pool, abscissae, points, x, lookup)
     x0 = pool[abscissae + i]
     s = (x - x0) / (pool[abscissae + i + 1] - x0)
@@ -113,7 +115,7 @@ def line_value(pool: Vec, abscissae: int, values: int, points: int, x: float, lo
 def grid_value(pool: Vec, table: CrosstalkTable, state: CrosstalkState, values: int, x1: float, x2: float) -> float:
     """Return the value bilinear between tests on a grid, the edge held outside."""
     state.outside = state.outside or outside_grid(pool, table, x1, x2)
-    x2 = min(max(x2, pool[table.x2]), pool[table.x2 + table.points2 - 1])
+    x2 = within(x2, pool[table.x2], pool[table.x2 + table.points2 - 1])
     j = find_interval(pool, table.x2, table.points2, x2, state.lookup2)
     row = values + j * table.points1
     near = line_value(pool, table.x1, row, table.points1, x1, state.lookup)
@@ -207,6 +209,17 @@ def crosstalk_fits(pool: Vec, table: CrosstalkTable, axes: int, numbers: int) ->
     if table.variant == CROSSTALK_GRID:
         return test_grid_fits(pool, table, numbers)
     return table.variant != CROSSTALK_TRIANGLES or triangles_fit(pool, table, numbers)
+
+
+def crosstalk_state_fits(table: CrosstalkTable, state: CrosstalkState) -> bool:
+    """Tell whether the state belongs to such a table."""
+    if table.variant == CROSSTALK_CURVE:
+        return lookup_fits(state.lookup, table.curve.points)
+    if table.variant == CROSSTALK_LINE:
+        return lookup_fits(state.lookup, table.tests)
+    if table.variant == CROSSTALK_GRID:
+        return lookup_fits(state.lookup, table.points1) and lookup_fits(state.lookup2, table.points2)
+    return True
 
 
 def test_grid_fits(pool: Vec, table: CrosstalkTable, numbers: int) -> bool:

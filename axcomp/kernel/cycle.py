@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from .activation import activate_if_stirred
 from .compensations import FRICTION, LEADSCREW, compensation_value, has_inputs, renew
-from .interpolation import nearest
+from .interpolation import LARGEST, nearest
 from .motion import AxisMotion, Motion, move_axis
 from .record import Vec
 from .records import ERROR_INPUT, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, Outputs, State, Tables
 from .shift import absorb_switch, release_shift
 from .switching import blend_in, contribution_of
 from .volumetric import compensate_volume, report_tool_length
-
-LARGEST = 1e15  # an input beyond this is taken for infinite: sums with it could overflow
 
 
 def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outputs) -> None:

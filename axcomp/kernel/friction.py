@@ -11,7 +11,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
+from .interpolation import (
+    LARGEST,
+    Curve,
+    Lookup,
+    curve_fits,
+    curve_value,
+    forget,
+    lookup_fits,
+    move_curve,
+    nearest,
+    period_fits,
+)
 from .motion import AxisMotion, way_sign
 from .record import APART, Vec, whole, zeros
 
@@ -155,6 +166,18 @@ def move_friction(table: FrictionTable, by: int) -> None:
 
 def friction_fits(pool: Vec, table: FrictionTable, numbers: int) -> bool:
     """Tell whether the table can be used."""
-    if not (curve_fits(pool, table.curve, numbers) and table.modulo_range >= 0.0):
+    if not (curve_fits(pool, table.curve, numbers) and period_fits(table.modulo_range)):
         return False
-    return 0 <= table.delay < DELAY_LINE and 0 <= table.lookahead <= LOOKAHEAD_MAX and table.position_delay >= 0.0
+    if not (abs(table.scaling) < LARGEST and 0.0 <= table.position_delay < LARGEST):
+        return False
+    return 0 <= table.delay < DELAY_LINE and 0 <= table.lookahead <= LOOKAHEAD_MAX
+
+
+def friction_state_fits(table: FrictionTable, state: FrictionState) -> bool:
+    """Tell whether the state belongs to such a table."""
+    if not (-1 <= state.direction <= 1 and 0 <= state.since_reversal <= table.lookahead):
+        return False
+    for k in range(table.delay + 1):
+        if state.line[k] - state.line[k] != 0.0:
+            return False
+    return 0 <= state.head <= table.delay and lookup_fits(state.lookup, table.curve.points)

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 from .record import Vec, whole
 
+LARGEST = 1e15  # a number beyond this is taken for infinite: sums with it could overflow
+SHORTEST_PERIOD = 1e-6  # ° or mm, of what repeats
+
 
 @dataclass(slots=True)
 class Curve:
@@ -68,11 +71,11 @@ def search_interval(pool: Vec, first: int, points: int, x: float, last: int) -> 
 
 
 def curve_value(pool: Vec, curve: Curve, x: float, lookup: Lookup) -> float:
-    """Return y(x): linear between the points, the end values held outside."""
+    """Return y(x): linear between the points, the end values held outside; what is no number counts as the lowest x."""
     i = lookup.interval
     if i + 1 < curve.points and pool[curve.x + i] < x < pool[curve.x + i + 1]:
         return section_value(pool, curve, i, x)
-    if x <= pool[curve.x]:
+    if not x > pool[curve.x]:
         return pool[curve.y]
     last = curve.points - 1
     if x >= pool[curve.x + last]:
@@ -92,6 +95,13 @@ def fold(x: float, start: float, length: float) -> float:
     """Return x moved by whole lengths into [start, start + length)."""
     folded = x - length * whole((x - start) / length)
     return folded if folded < start + length else start
+
+
+def within(x: float, low: float, high: float) -> float:
+    """Return x held between two bounds; what is no number is the lower one."""
+    if not x >= low:
+        return low
+    return min(x, high)
 
 
 def nearest(change: float, length: float) -> float:
@@ -120,6 +130,16 @@ def range_fits(first: int, count: int, numbers: int) -> bool:
 def curve_fits(pool: Vec, curve: Curve, numbers: int) -> bool:
     """Tell whether a curve lies in the pool and its abscissae ascend."""
     return ascending(pool, curve.x, curve.points, numbers) and range_fits(curve.y, curve.points, numbers)
+
+
+def lookup_fits(lookup: Lookup, points: int) -> bool:
+    """Tell whether a search may go on from where it ended, in so many points."""
+    return lookup.interval == 0 or 0 < lookup.interval < points - 1
+
+
+def period_fits(period: float) -> bool:
+    """Tell whether positions can repeat after so many mm or °; 0: they do not."""
+    return period == 0.0 or SHORTEST_PERIOD <= period < LARGEST
 
 
 def move_curve(curve: Curve, by: int) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, move_curve, nearest
+from .interpolation import Curve, Lookup, curve_fits, curve_value, forget, lookup_fits, move_curve, nearest, period_fits
 from .motion import Argument, AxisMotion, argument_fits, folded, is_motion
 from .record import Vec
 from .switching import CYCLES_MAX, mapped_step, ramp
@@ -103,10 +103,15 @@ def move_leadscrew(table: LeadscrewTable, by: int) -> None:
 
 def leadscrew_fits(pool: Vec, table: LeadscrewTable, axes: int, numbers: int) -> bool:
     """Tell whether the table can be used."""
-    if not (1 <= table.reversal_cycles <= CYCLES_MAX and table.modulo_range >= 0.0):
+    if not (1 <= table.reversal_cycles <= CYCLES_MAX and period_fits(table.modulo_range)):
         return False
     if not (argument_fits(table.argument, axes) and curve_fits(pool, table.positive, numbers)):
         return False
     return not table.bilateral or (
         table.negative.points == table.positive.points and curve_fits(pool, table.negative, numbers)
     )
+
+
+def leadscrew_state_fits(table: LeadscrewTable, state: LeadscrewState) -> bool:
+    """Tell whether the state belongs to such a table; both directions have the same points."""
+    return lookup_fits(state.lookup, table.positive.points) and 0 <= state.reversal_step <= table.reversal_cycles

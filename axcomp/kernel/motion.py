@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from .interpolation import fold, nearest
+from .interpolation import LARGEST, fold, nearest, period_fits
 from .record import APART
 
 AXES = 32
@@ -91,6 +91,9 @@ def folded(argument: Argument, position: float) -> float:
 
 def argument_fits(argument: Argument, axes: int) -> bool:
     """Tell whether an argument means an axis and a turn."""
-    if argument.start - argument.start != 0.0 or argument.period - argument.period != 0.0:  # not finite
-        return False
-    return 0 <= argument.axis < axes and argument.period >= 0.0
+    return 0 <= argument.axis < axes and abs(argument.start) < LARGEST and period_fits(argument.period)
+
+
+def motion_fits(motion: AxisMotion) -> bool:
+    """Tell whether the state of a motion can be gone on from."""
+    return -1 <= motion.sign <= 1 and -1 <= motion.direction <= 1

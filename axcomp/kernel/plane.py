@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .interpolation import range_fits
+from .interpolation import LARGEST, range_fits
 from .motion import Argument, Motion, argument_fits, position_of
 from .record import Vec
 
@@ -43,7 +43,7 @@ def plane_value(pool: Vec, table: PlaneTable, motion: Motion) -> float:
 def grid_coordinate(x: float, start: float, interval: float, points: int) -> float:
     """Return the position in intervals from the start, clamped to the grid: 0 … points − 1."""
     u = (x - start) / interval
-    if u <= 0.0:
+    if not u > 0.0:
         return 0.0
     return min(u, points - 1.0)
 
@@ -65,8 +65,7 @@ def plane_fits(table: PlaneTable, axes: int, numbers: int) -> bool:
         return False
     if not (table.interval1 > 0.0 and table.interval2 > 0.0 and table.points1 > 0 and table.points2 > 0):
         return False
-    # A start that is not finite would make a cell any number.
-    if table.start1 - table.start1 != 0.0 or table.start2 - table.start2 != 0.0:
+    if not (abs(table.start1) < LARGEST and abs(table.start2) < LARGEST):
         return False
     if table.points1 > numbers // table.points2:
         return False

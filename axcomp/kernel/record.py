@@ -8,7 +8,7 @@ everything 0; C makes it with memset.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
 from functools import cache, partial
 from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
 
@@ -26,6 +26,27 @@ _NUMBERS = (float, int, bool)
 def whole(x: float) -> float:
     """Return the largest whole number not above ``x``, as a float; in C ``floor(x) + 0.0`` (never −0)."""
     return float(math.floor(x))
+
+
+def sound(record: Any) -> bool:
+    """Tell whether every number of a record is finite; in C also whether every Boolean is 0 or 1."""
+    return decided(record) and all(map(math.isfinite, _numbers_of(record)))
+
+
+def decided(record: Any) -> bool:
+    """Tell whether every Boolean of a record is 0 or 1: in Python always."""
+    return record is not None
+
+
+def _numbers_of(value: Any) -> Iterator[float]:
+    if isinstance(value, list):
+        for element in value:
+            yield from _numbers_of(element)
+    elif isinstance(value, _NUMBERS):
+        yield value
+    else:
+        for name in fields_of(type(value)):
+            yield from _numbers_of(getattr(value, name))
 
 
 def zeros(n: int) -> list[float]:

@@ -66,6 +66,11 @@ def absorb(shift: Shift, gain: float) -> None:
     shift.now -= gain
 
 
+def shift_state_fits(cycles: int, state: ShiftState) -> bool:
+    """Tell whether the state belongs to releases of so many cycles."""
+    return 0 <= state.step <= cycles
+
+
 def adopt_shift(before: int, after: int, state: ShiftState) -> None:
     """Go on with a release of another length from where it stands."""
     if state.step > 0:

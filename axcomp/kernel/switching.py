@@ -189,3 +189,10 @@ def switch_fits(table: SwitchTable, axes: int) -> bool:
         if not 0 <= table.need[k] < axes:
             return False
     return True
+
+
+def switch_state_fits(table: SwitchTable, state: SwitchState) -> bool:
+    """Tell whether the state belongs to such a switch; without a table nothing acts, but a blend may run out."""
+    if not (0 <= state.step <= table.cycles and 0 <= state.blend_step <= table.blend_cycles):
+        return False
+    return 0.0 <= state.weight <= 1.0 and (table.configured or (state.step == 0 and state.weight == 0.0))

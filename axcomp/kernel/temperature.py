@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .interpolation import LARGEST
+
 
 @dataclass(slots=True)
 class TemperatureTable:
@@ -47,7 +49,7 @@ def take_temperature(
     coefficient = table.coefficient + given.coefficient
     if offset == state.offset and coefficient == state.coefficient:
         return 0.0
-    if offset - offset != 0.0 or coefficient - coefficient != 0.0:
+    if not (abs(offset) < LARGEST and abs(coefficient) < LARGEST):
         return 0.0
     before = temperature_value(table, state, position)
     state.offset = offset
@@ -56,7 +58,5 @@ def take_temperature(
 
 
 def temperature_fits(table: TemperatureTable) -> bool:
-    """Tell whether the table can be used: its numbers are finite."""
-    return table.position - table.position == 0.0 and (
-        table.offset - table.offset == 0.0 and table.coefficient - table.coefficient == 0.0
-    )
+    """Tell whether the table can be used: sums with its numbers do not overflow."""
+    return abs(table.position) < LARGEST and abs(table.offset) < LARGEST and abs(table.coefficient) < LARGEST

@@ -13,6 +13,7 @@ HALF_PI = 1.5707963267948966
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI_HEAD = 1.57079632673412561417
 HALF_PI_MIDDLE = 6.07710050630396597660e-11
+LARGEST_ANGLE = 1e5  # rad; beyond it the reduction is not exact, and far beyond the turns are no int
 HALF_PI_TAIL = 2.02226624879595063154e-21
 
 
@@ -35,8 +36,10 @@ def cosine_polynomial(r: float) -> float:
 
 
 def sine_of_quarter(x: float, quarter: int) -> float:
-    """Return sin(x + quarter · π/2) for |x| < 10⁵ rad."""
-    turns = whole(x * TWO_OVER_PI + 0.5)
+    """Return sin(x + quarter · π/2) for |x| < 10⁵ rad; of anything else, which no table leads to, some number."""
+    turns = 0.0
+    if -LARGEST_ANGLE < x < LARGEST_ANGLE:
+        turns = whole(x * TWO_OVER_PI + 0.5)
     r = x - turns * HALF_PI_HEAD
     r = r - turns * HALF_PI_MIDDLE
     r = r - turns * HALF_PI_TAIL

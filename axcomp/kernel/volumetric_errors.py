@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from .interpolation import fold, nearest
+from .interpolation import fold, nearest, within
 from .record import Vec, zeros
 from .volumetric_records import (
     BOXES,
@@ -60,7 +60,7 @@ def errors_at(
 def add_from_line(pool: Vec, block: ErrorBlock, x: float, errors: Annotated[list[float], ERRORS]) -> None:
     """Add what ``add_from_grid`` adds, for one argument: most tables have no more."""
     first = block.knots[0]
-    u = min(max(x, pool[first]), pool[first + block.points[0] - 1])
+    u = within(x, pool[first], pool[first + block.points[0] - 1])
     i = find_cell(pool, block, 0, u)
     share = (u - pool[first + i]) / (pool[first + i + 1] - pool[first + i])
     near = block.values + i * block.errors
@@ -82,7 +82,7 @@ def add_from_grid(
         first = block.knots[argument]
         last = block.points[argument] - 1
         if last > 0:
-            u = min(max(x[argument], pool[first]), pool[first + last])
+            u = within(x[argument], pool[first], pool[first + last])
             i = find_cell(pool, block, argument, u)
             share[argument] = (u - pool[first + i]) / (pool[first + i + 1] - pool[first + i])
             stride[argument] = float(step)

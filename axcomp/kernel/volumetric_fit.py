@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from .interpolation import ascending, range_fits
+from .interpolation import LARGEST, ascending, period_fits, range_fits
 from .record import Vec
 from .volumetric_records import (
+    A0,
+    EA,
     ERRORS,
+    ERRORS_OF_AXIS,
+    EX,
     IN_BOX,
     INTERPOLATE_GRID,
     INTERPOLATE_PATH,
@@ -15,8 +19,12 @@ from .volumetric_records import (
     MEMBERS,
     TOGETHER,
     ErrorBlock,
+    VolumetricState,
     VolumetricTable,
 )
+
+ALL_LINEAR = 7  # X, Y and Z as bits
+ANGLE_LARGEST = 1e4  # rad; sums of two are still reduced
 
 
 def volumetric_fits(pool: Vec, table: VolumetricTable, axes: int, numbers: int) -> bool:
@@ -25,11 +33,17 @@ def volumetric_fits(pool: Vec, table: VolumetricTable, axes: int, numbers: int) 
         return True
     if table.cycles < 1 or not members_fit(table, axes) or not chain_fits(table):
         return False
+    for d in range(LINEAR):
+        if not (table.velocity[d] >= 0.0 and abs(table.tool_position[d]) < LARGEST):
+            return False
     if table.constants > 0:
         if table.constants > ERRORS or not range_fits(table.constant, 2 * table.constants, numbers):
             return False
         if not counts(pool, table.constant, table.constants, ERRORS):
             return False
+        for k in range(table.constants):
+            if not error_fits(int(pool[table.constant + k]), pool[table.constant + table.constants + k]):
+                return False
     if not 0 <= table.blocks <= ERRORS:
         return False
     for b in range(table.blocks):
@@ -48,22 +62,26 @@ def members_fit(table: VolumetricTable, axes: int) -> bool:
     for d in range(LETTERS):
         if not 0 <= table.axis[d] < axes:
             return False
-        if table.offset[d] - table.offset[d] != 0.0:  # not finite: no interpolation knows where the axis is
+        if not abs(table.offset[d]) < LARGEST:
             return False
     return True
 
 
 def chain_fits(table: VolumetricTable) -> bool:
-    """Tell whether the kinematic chain has letters only."""
+    """Tell whether the kinematic chain is X, Y, Z and some of A, B, C, each once, and the columns those of X, Y, Z."""
     if not (LINEAR <= table.chain_length <= LETTERS and 0 <= table.workpiece_axes <= table.chain_length):
         return False
+    letters = 0
     for k in range(table.chain_length):
-        if not 0 <= table.chain[k] < LETTERS:
+        if not 0 <= table.chain[k] < LETTERS or (letters >> table.chain[k]) & 1 == 1:
             return False
+        letters += 1 << table.chain[k]
+    columns = 0
     for d in range(LINEAR):
         if not 0 <= table.column[d] < LINEAR:
             return False
-    return True
+        columns += 1 << table.column[d]
+    return letters & ALL_LINEAR == ALL_LINEAR and columns == ALL_LINEAR
 
 
 def block_fits(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
@@ -78,10 +96,12 @@ def block_fits(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
         return False
     if not range_fits(block.values, block.nodes * block.errors, numbers):
         return False
+    for p in range(block.errors):
+        for n in range(block.nodes):
+            if not error_fits(int(pool[block.error + p]), pool[block.values + n * block.errors + p]):
+                return False
     for d in range(block.arguments):
-        if not 0 <= block.argument[d] < LETTERS or not block.period[d] >= 0.0:
-            return False
-        if block.start[d] - block.start[d] != 0.0 or block.period[d] - block.period[d] != 0.0:  # not finite
+        if not (0 <= block.argument[d] < LETTERS and abs(block.start[d]) < LARGEST and period_fits(block.period[d])):
             return False
     if block.interpolation == INTERPOLATE_GRID:
         return knots_fit(pool, block, numbers)
@@ -105,6 +125,22 @@ def boxes_fit(block: ErrorBlock, numbers: int) -> bool:
     return range_fits(block.steps[0], 4 * block.arguments * leaves, numbers)
 
 
+def error_fits(number: int, value: float) -> bool:
+    """Tell whether an error can be as large: a length that can be added to a position, an angle that can be reduced."""
+    place = number % ERRORS_OF_AXIS
+    if A0 <= place < EX or place >= EA:
+        return abs(value) <= ANGLE_LARGEST
+    return abs(value) < LARGEST
+
+
+def volumetric_state_fits(table: VolumetricTable, state: VolumetricState) -> bool:
+    """Tell whether the state belongs to such a compensation: the sections of its paths are there."""
+    for b in range(ERRORS):
+        if state.section[b] < 0 or (b < table.blocks and state.section[b] > table.block[b].nodes):
+            return False
+    return 0.0 <= state.progress <= 1.0 and 0.0 <= state.tool_progress <= 1.0
+
+
 def knots_fit(pool: Vec, block: ErrorBlock, numbers: int) -> bool:
     """Tell whether the knots along each argument ascend, and make the nodes."""
     nodes = 1
@@ -124,7 +160,10 @@ def steps_fit(pool: Vec, block: ErrorBlock, d: int, numbers: int) -> bool:
     if not (range_fits(block.steps[d], points + 1, numbers) and counts(pool, block.steps[d], points + 1, points)):
         return False
     length = pool[block.knots[d] + points - 1] - pool[block.knots[d]]
-    return block.steps_per_unit[d] >= 0.0 and length * block.steps_per_unit[d] < points
+    if not (block.steps_per_unit[d] >= 0.0 and length * block.steps_per_unit[d] < points):
+        return False
+    # The last cell begins a knot before the last one.
+    return counts(pool, block.steps[d], int(length * block.steps_per_unit[d]) + 1, points - 1)
 
 
 def counts(pool: Vec, first: int, count: int, limit: int) -> bool:

@@ -7,7 +7,7 @@ from .compiling import AxisCompiler, CompileError, append
 from .cross import Cross
 from .crosstalk_data import Crosstalk, CrosstalkCurve, CrosstalkTest
 from .friction import Friction
-from .kind import KIND_NAMES, Kind, KindInput
+from .kind import KIND_NAMES, Kind, KindInput, TableArray
 from .leadscrew import Leadscrew
 from .parameter import DataType, ListKind, Manual, Parameter, Quantity, Range, Severity, Value, axis, both, key_of
 from .plane import Plane
@@ -46,6 +46,7 @@ __all__ = [
     "Quantity",
     "Range",
     "Severity",
+    "TableArray",
     "Tables",
     "Temperature",
     "Value",

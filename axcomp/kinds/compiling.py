@@ -15,7 +15,7 @@ class CompileError(ValueError):
 
 def append(pool: list[float], values: Sequence[float], owner: str) -> int:
     """Put numbers into the pool and return where they begin; CompileError, naming the owner, if one is not finite."""
-    if not all(abs(value) < LARGEST for value in values):
+    if not all(map(LARGEST.__gt__, map(abs, values))):
         raise CompileError(f"{owner}: a table holds a number that is not finite")
     first = len(pool)
     pool.extend(values)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..model import Axis, Compensation, Curve, Machine
 from .compiling import AxisCompiler
-from .kind import EntryWriter, Kind, Reference, TableReader
+from .kind import EntryWriter, Kind, Reference, TableArray, TableReader
 from .parameter import AXIS_NUMBER, DataType, Parameter, Severity, activation, both, isg, position, smooth_switching
 from .shown import BOTH, Table, correction_of, position_of
 from .units import span
@@ -85,6 +85,10 @@ class CrossKind(Kind[Cross]):
     sizes = (_LAST_INDEX,)
     reserves = _MAX_POINTS
     points_error = 110639
+    arrays = (
+        TableArray(0, "positions", "Positions of the master", "x", "{}", "curve.x", "curve.points", "", "master"),
+        TableArray(1, "corrections", "Corrections of the slave there", "y", "{}", "curve.y", "curve.points"),
+    )
     at_standstill = True
     codes = {
         "AXC-SLAVE": (Severity.WARNING, "Cross compensation: slave_ax_nr is read as the number of the master"),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from ..kernel import DELAY_LINE, LARGEST, LOOKAHEAD_MAX
 from ..model import Axis, Compensation, Curve, Machine, Quantity, symbol
 from .compiling import AxisCompiler
-from .kind import EntryWriter, Kind, KindInput, Reference, TableReader
+from .kind import EntryWriter, Kind, KindInput, Reference, TableArray, TableReader
 from .parameter import BELOW_MAX, DataType, Parameter, Quantity as ListQuantity, Severity, activation, both
 from .shown import SPEED, Table
 from .units import span
@@ -163,6 +163,10 @@ class FrictionKind(Kind[Friction]):
     sizes = (_COUNT,)
     reserves = _MAX_POINTS
     points_error = 110641
+    arrays = (
+        TableArray(0, "velocities", "Speeds of the points", "v", "{}/s", "curve.x", "curve.points"),
+        TableArray(1, "currents", "Currents at these speeds, before scaling", "y", "", "curve.y", "curve.points"),
+    )
     inactive_code = "70495"
     codes = {
         "70495": (

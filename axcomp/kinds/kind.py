@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
+from typing import Any, ClassVar, Generic, Literal, NamedTuple, Protocol, TypeVar
 
 from ..kernel import CompensationTables, fields_of
 from ..model import Axis, AxisType, Compensation, Machine, ModuloRange
@@ -147,6 +147,26 @@ class KindInput:
     present: Callable[[Any], bool] = lambda _: True
 
 
+class TableArray(NamedTuple):
+    """Numbers of a kind's table that a host of FMI 3.0 reads and calibrates.
+
+    ``number``: with the kind's identifier, that of the array in the block of its axis' tables; ``name``: behind the
+    kind's; ``of``: ``x`` abscissae, ``v`` those of a speed, ``y`` values; ``unit``: as in ``KindInput``, of abscissae
+    for the axis they are looked up with. ``at``, ``points``, ``rows``, ``argument`` are paths in the kernel's table: of
+    the index in the pool, the counts ("": one row), and what looks the abscissae up ("": no position).
+    """
+
+    number: int
+    name: str
+    description: str
+    of: Literal["x", "v", "y"]
+    unit: str
+    at: str
+    points: str
+    rows: str = ""
+    argument: str = ""
+
+
 class Kind(ABC, Generic[C]):
     """A kind of compensation; every module of this room but the common ones ends with one.
 
@@ -184,6 +204,8 @@ class Kind(ABC, Generic[C]):
         A command waits until the axis stands.
     inputs : tuple of KindInput
         Of its own, besides those that every kind has.
+    arrays : tuple of TableArray
+        Numbers of its table that a host of FMI 3.0 may change; none: it may not.
     codes : mapping
         Of findings that only this kind has.
     inactive_code, no_table_code : str
@@ -209,6 +231,7 @@ class Kind(ABC, Generic[C]):
     points_error: ClassVar[int] = 0
     at_standstill: ClassVar[bool] = False
     inputs: ClassVar[tuple[KindInput, ...]] = ()
+    arrays: ClassVar[tuple[TableArray, ...]] = ()
     codes: ClassVar[Codes] = {}
     inactive_code: ClassVar[str] = "AXC-INACTIVE"
     no_table_code: ClassVar[str] = "AXC-NO-TABLE"

@@ -9,7 +9,7 @@ from decimal import Decimal, localcontext
 from ..model import Axis, Compensation, Curve, Machine
 from . import shown
 from .compiling import AxisCompiler
-from .kind import EntryWriter, Kind, TableReader
+from .kind import EntryWriter, Kind, TableArray, TableReader
 from .parameter import BELOW_MAX, DataType, Manual, Parameter, Quantity, Severity, activation, both, position
 from .shown import Table, correction_of, position_of
 from .units import equidistant, in_list, span
@@ -110,6 +110,17 @@ class LeadscrewKind(Kind[Leadscrew]):
     places = (_INTERVAL, _START)
     reserves = _MAX_POINTS
     points_error = 110638
+    arrays = (
+        TableArray(
+            0, "positions", "Positions of the points", "x", "{}", "positive.x", "positive.points", "", "argument"
+        ),
+        TableArray(
+            1, "positive", "Actual − programmed position in positive motion", "y", "{}", "positive.y", "positive.points"
+        ),
+        TableArray(
+            2, "negative", "Actual − programmed position in negative motion", "y", "{}", "negative.y", "negative.points"
+        ),
+    )
     codes = {
         "AXC-MODULO-AXIS": (
             Severity.WARNING,

@@ -9,7 +9,7 @@ from typing import Any
 from ..kernel import LARGEST
 from ..model import Axis, AxisType, Compensation, Grid, Machine
 from .compiling import AxisCompiler
-from .kind import EntryWriter, Kind, Reference, TableReader
+from .kind import EntryWriter, Kind, Reference, TableArray, TableReader
 from .parameter import (
     AXIS_NUMBER,
     DataType,
@@ -127,6 +127,18 @@ class PlaneKind(Kind[Plane]):
     places = _START
     reserves = _MAX_POINTS
     points_error = 110640
+    arrays = (
+        TableArray(
+            0,
+            "corrections",
+            "Corrections: a row for each position of the second master",
+            "y",
+            "{}",
+            "values",
+            "points1",
+            "points2",
+        ),
+    )
     at_standstill = True
     no_table_code = "70183"
     codes = {

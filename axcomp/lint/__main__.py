@@ -1,5 +1,6 @@
 """Write ``docs/findings.md``: ``python -m axcomp.lint``."""
 
+from ..saving import write_whole
 from .codes import PAGE, page
 
-PAGE.write_text(page(), encoding="utf-8", newline="\n")
+write_whole(PAGE, page())

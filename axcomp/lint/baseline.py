@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from ..lists import Finding, write_whole
+from ..lists import Finding
+from ..saving import write_whole
 from .settings import SettingsError, relative
 
 _VERSION = 1
@@ -64,7 +65,7 @@ class Baseline:
             for (file, code, parameter), count in sorted(self._known.items())
         ]
         text = json.dumps({"version": _VERSION, "findings": rows}, indent=1, ensure_ascii=False)
-        write_whole(self.path, f"{text}\n".encode())
+        write_whole(self.path, f"{text}\n")
         return self._known.total()
 
     def _key(self, finding: Finding) -> _Key:

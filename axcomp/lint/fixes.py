@@ -78,14 +78,15 @@ def fixed(path: Path, settings: Settings, axis_type: TypeName | None = None) -> 
     Only findings that are told are mended.
     """
     count = 0
-    reading = read_machine(path, axis_type=axis_type)
+    options: dict[str, Any] = {"axis_type": axis_type, "allow_outside": settings.allow_outside}
+    reading = read_machine(path, **options)
     for _ in range(_PASSES):
         mended = _mend(reading, Selection(settings, reading.documents))
         if not mended:
             break
         count += mended
         documents = list(reading.documents.values())
-        reading = read_machine(path, documents=documents, beside_disk=True, axis_type=axis_type)
+        reading = read_machine(path, documents=documents, beside_disk=True, **options)
     return reading, count
 
 

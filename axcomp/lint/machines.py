@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -12,7 +13,18 @@ from pathlib import Path
 from ..analysis.judgement import Evidence, Judgement
 from ..fmu import BuildError, packed_lists
 from ..kinds import CompileError, ListKind, Severity
-from ..lists import CODES, START_UP_NAME, Document, Finding, Reading, TypeName, is_project, kind_of, read_machine
+from ..lists import (
+    CODES,
+    START_UP_NAME,
+    Document,
+    Finding,
+    Reading,
+    TypeName,
+    is_project,
+    kind_of,
+    open_regular,
+    read_machine,
+)
 from ..model import CYCLE_TIME, Machine
 from ..runtime import compile_tables
 from .selection import Selection
@@ -78,8 +90,13 @@ def check_machine(
         Of this path, where it has been read before.
     """
     if reading is None:
-        beside = documents is not None
-        reading = read_machine(path, documents=documents, beside_disk=beside, axis_type=axis_type or settings.axis_type)
+        reading = read_machine(
+            path,
+            documents=documents,
+            beside_disk=documents is not None,
+            axis_type=axis_type or settings.axis_type,
+            allow_outside=settings.allow_outside,
+        )
     judgement = (evidence or Evidence()).judge(reading)
     found = [*reading.findings, *judgement.findings]
     found += [] if any(one.severity is Severity.ERROR for one in found) else _not_buildable(path, reading)
@@ -158,7 +175,13 @@ class _Search:
 
     def _take(self, path: Path) -> None:
         documents = self._documents.values()
-        reading = read_machine(path, documents=documents, beside_disk=True, axis_type=self._axis_type)
+        reading = read_machine(
+            path,
+            documents=documents,
+            beside_disk=True,
+            axis_type=self._axis_type,
+            allow_outside=self._settings.allow_outside,
+        )
         self._found[path] = reading
         self._documents |= reading.documents
         self._used.update(map(_normal, reading.documents))
@@ -168,11 +191,19 @@ class _Search:
 
     def _kind(self, file: Path) -> ListKind | None:
         try:
-            document = self._documents.get(file) or Document(file, file.read_bytes())
+            document = self._documents.get(file) or self._opened(file)
         except OSError:
             return None
         self._documents[file] = document
         return kind_of("", document.text) if document.is_text else None
+
+    @staticmethod
+    def _opened(file: Path) -> Document:
+        """Return a list; OSError for what is no regular file, and for a link that leads out of its folder."""
+        if Path(os.path.realpath(file)).parent != Path(os.path.realpath(file.parent)):
+            raise OSError(errno.EACCES, os.strerror(errno.EACCES))
+        with open_regular(file) as opened:
+            return Document(file, opened.read())
 
 
 def _walk(root: Path, settings: Settings) -> Iterator[tuple[Path, list[Path]]]:

@@ -41,6 +41,8 @@ class Settings:
         Address of the page of findings; "": of the installed one.
     folder : Path
         Where the settings stand.
+    allow_outside : tuple of Path
+        As ``read_machine`` takes it; in no file, which may be a stranger's as the lists are.
     """
 
     select: tuple[str, ...] = ("ALL",)
@@ -53,6 +55,7 @@ class Settings:
     axis_type: TypeName | None = None
     help_address: str = ""
     folder: Path = Path()
+    allow_outside: tuple[Path, ...] = ()
 
     def __post_init__(self) -> None:
         check_codes((*self.select, *self.ignore, *(code for codes in self.per_file_ignores.values() for code in codes)))
@@ -71,7 +74,9 @@ _CHOICES = {
     "axis_type": get_args(TypeName),
 }
 _LISTS = ("select", "ignore", "exclude")
-_NAMES = {one.name.replace("_", "-"): one.name for one in fields(Settings) if one.name != "folder"}
+_NAMES = {
+    one.name.replace("_", "-"): one.name for one in fields(Settings) if one.name not in ("folder", "allow_outside")
+}
 
 
 def find_settings(start: Path) -> Settings:

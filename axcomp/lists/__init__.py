@@ -7,7 +7,7 @@ from .catalogue_volumetric import AUTO, ETALON_EXCHANGE, ISG_CSV
 from .compensation import TableReader
 from .document import Document
 from .etalon import read_etalon, write_etalon
-from .files import Files
+from .files import Files, is_absolute, open_regular
 from .findings import CODES, LIMIT, Finding, Findings, ListError
 from .format import Lines
 from .grammar import Entry, continued, decode, entries, number, string
@@ -15,10 +15,10 @@ from .isg_csv import read_isg_csv, write_isg_csv
 from .known import all_similar
 from .positions import DocumentEntry, Position
 from .project import Project, Section, is_project
-from .reader import Reading, TypeName, read_machine, reread_volumetric
+from .reader import read_machine, reread_volumetric
+from .reading import Reading, TypeName
 from .recognition import START_UP_NAME, kind_of, parameter_format
 from .reference import HEADINGS, PAGE, as_dict, cells, page
-from .saving import write_whole
 from .start_up import MachineFiles, find_lists
 from .values import ListValues, read_values
 from .volumetric_blocks import ParameterBlock
@@ -73,10 +73,12 @@ __all__ = [
     "format_compensation_list",
     "format_start_up_list",
     "format_volumetric_list",
+    "is_absolute",
     "is_project",
     "kind_of",
     "machine_documents",
     "number",
+    "open_regular",
     "page",
     "parameter",
     "parameter_file",
@@ -90,5 +92,4 @@ __all__ = [
     "write_etalon",
     "write_isg_csv",
     "write_machine",
-    "write_whole",
 ]

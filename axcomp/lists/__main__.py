@@ -1,5 +1,6 @@
 """Write ``docs/lists.md``: ``python -m axcomp.lists``."""
 
+from ..saving import write_whole
 from .reference import PAGE, page
 
-PAGE.write_text(page(), encoding="utf-8", newline="\n")
+write_whole(PAGE, page())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..kinds import KINDS, METRIC, Gear
-from ..model import AXES_MAX, AxisType, ModuloRange
+from ..model import AXES_MAX, SHORTEST_RANGE, AxisType, ModuloRange
 from .catalogue import parameter
 from .findings import Findings
 from .values import ListValues
@@ -112,10 +112,10 @@ def _gear(values: ListValues, findings: Findings) -> Gear:
 def _modulo(values: ListValues, findings: Findings) -> ModuloRange:
     low, high = "getriebe[i].modulou", "getriebe[i].moduloo"
     modulo = ModuloRange(values.converted(low, 0), values.converted(high, 0))
-    if modulo.end > modulo.start:
+    if modulo.length > SHORTEST_RANGE:
         return modulo
     file, line = values.place(high if values.line(high, 0) else low, 0)
-    message = f"The modulo range {modulo.start:g} … {modulo.end:g} is empty; 0 … 360 is used."
+    message = f"The modulo range {modulo.start:g} … {modulo.end:g} is no turn of an axis; 0 … 360 is used."
     findings.add("110052", file, line, "getriebe[0].moduloo", message)
     return ModuloRange()
 

@@ -13,12 +13,12 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from ..kinds import DataType, ListKind, Parameter, key_of
+from ..saving import write_whole
 from .catalogue import SPELLINGS, parameter
 from .findings import Findings
 from .format import text_of
 from .grammar import Encoding, Entry, continued, decode, encoding_of, entries
 from .positions import DOS_END, INDEX, DocumentEntry, Position, detailed, with_value
-from .saving import write_whole
 from .values import ListValues, read_values
 
 _NEWLINES = re.compile(r"(\r\n|\r|\n)")
@@ -56,6 +56,7 @@ class Document:
     def _forget(self) -> None:
         self._text: str | None = None
         self._raw: list[Entry] | None = None
+        self._shown: tuple[DocumentEntry, ...] | None = None
         self._at: dict[Name, int] = {}
         self._values: dict[ListKind, tuple[ListValues, ListValues | None, Findings]] = {}
 
@@ -64,6 +65,9 @@ class Document:
         other = Document(self.path, self.data, self.kind)
         if self._lines is not None:
             other._lines, other._newlines = list(self._lines), list(self._newlines)
+        # What has been parsed is not parsed again for what is left as it is.
+        other._text, other._shown, other._values = self._text, self._shown, dict(self._values)
+        other._raw, other._at = None if self._raw is None else list(self._raw), dict(self._at)
         return other
 
     # What it says
@@ -101,8 +105,10 @@ class Document:
     @property
     def entries(self) -> tuple[DocumentEntry, ...]:
         """All entries up to ``End`` in their order."""
-        lines = self.text.split("\n")
-        return tuple(detailed(entry, lines[entry.line - 1], self._kind()) for entry in self._entries())
+        if self._shown is None:
+            lines = self.text.split("\n")
+            self._shown = tuple(detailed(entry, lines[entry.line - 1], self._kind()) for entry in self._entries())
+        return self._shown
 
     @property
     def values(self) -> ListValues:

@@ -69,6 +69,10 @@ CODES: dict[str, tuple[Severity, str]] = {
     # Files
     "AXC-MISSING": (_ERROR, "A named file does not exist"),
     "AXC-UNREADABLE": (_ERROR, "A file cannot be read: a directory, no permission, too large"),
+    "AXC-FOLDER": (
+        _ERROR,
+        "A list names a file outside its folder (an absolute path, .., a link), and nothing allows that",
+    ),
     "AXC-BINARY": (_ERROR, "A file is no text"),
     "AXC-EMPTY": (_ERROR, "A list has no entry"),
     "AXC-KIND": (_ERROR, "A list is of another kind than it is used for"),

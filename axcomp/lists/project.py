@@ -13,11 +13,11 @@ from typing import NamedTuple
 from xml.parsers.expat import ErrorString, ExpatError, ParserCreate
 
 from ..kinds import ListKind, key_of
+from ..saving import write_whole
 from .catalogue import SPELLINGS
 from .document import Document
 from .findings import Findings
 from .recognition import kind_of
-from .saving import write_whole
 
 _SUFFIXES = {".tsproj", ".xti", ".tsm", ".xml"}
 _ELEMENTS = {"achsmds": ListKind.AXIS, "sdamds": None, "nullpd": None, "werkzd": None, "pzvd": None, "ved": None}
@@ -185,7 +185,7 @@ def is_project(path: Path) -> bool:
     if path.suffix.lower() not in _SUFFIXES:
         return False
     try:
-        data = path.read_bytes()
+        data = path.read_bytes() if path.is_file() else b""
     except OSError:
         return False
     plain = data.replace(b"\0", b"").lower()

@@ -3,107 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 from ..kinds import KINDS, Kind, ListKind, Severity
-from ..model import Axis, AxisType, Compensation, Machine, ModuloRange, Volumetric, as_html, needed
+from ..model import Axis, AxisType, Compensation, Machine, ModuloRange, Volumetric
 from .axes import Axes, AxisSettings, read_axis
 from .compensation import TableReader
 from .document import Document
 from .files import Files
 from .findings import Finding, Findings, ListError
 from .positions import located, outside
+from .reading import Reading, TypeName
 from .start_up import MachineFiles, NamedList, find_lists
 from .values import ListValues
 from .volumetric_list import check_parameters, read_one, read_volumetric
-
-TypeName = Literal["translatory", "rotary", "modulo"]
-"""What an axis without axis list can be taken for; ``modulo``: rotary, counting from 0° to 360°."""
 
 _TYPES: dict[TypeName, dict[str, Any]] = {
     "translatory": {},
     "rotary": {"type": AxisType.ROTARY},
     "modulo": {"type": AxisType.ROTARY, "modulo": ModuloRange()},
 }
-
-
-@dataclass(frozen=True, eq=False)
-class Reading:
-    """A machine as its lists describe it, what there was to say about them, and the lists themselves.
-
-    Attributes
-    ----------
-    machine : Machine
-    findings : tuple of Finding
-    path : Path
-        What was read.
-    documents : dict of Path to Document
-        Every file that was read, by the path it was named by, the start-up list first.
-    start_up : Document or None
-        The start-up list, where there is one.
-    axes : Axes
-        What the lists say about the axes besides their tables.
-    axis_type : str or None
-        What was said of axes without axis lists.
-    inner_findings : tuple of Finding
-        The same findings; lists that stand in another file are named themselves, and their own lines counted.
-
-    Examples
-    --------
-    >>> from axcomp import models, read_machine
-    >>> reading = read_machine(models() / "rotary_table")
-    >>> reading.machine.axes[0].kinds, reading.start_up.path.name
-    (('leadscrew', 'friction'), 'hochlauf.lis')
-    """
-
-    machine: Machine
-    findings: tuple[Finding, ...]
-    path: Path
-    documents: dict[Path, Document] = field(repr=False)
-    start_up: Document | None = field(repr=False)
-    axes: Axes = field(repr=False)
-    _axis_lists: Mapping[int, Document] = field(repr=False)
-    _compensation_lists: Mapping[int, Document] = field(repr=False)
-    axis_type: TypeName | None = None
-    inner_findings: tuple[Finding, ...] = field(default=(), repr=False)
-
-    @property
-    def name(self) -> str:
-        """What the machine is called: by its folder, or by the list that is all there is of it."""
-        path = self.path.resolve()
-        if self.start_up is not None and path.is_file():
-            return path.parent.name
-        return path.stem if path.is_file() else path.name
-
-    def _repr_html_(self) -> str:
-        """Return machine and findings as tables, for notebooks."""
-        rows = [[f"{one.file}:{one.line}", one.severity.value, one.code, one.message] for one in self.findings]
-        table = as_html(["place", "severity", "code", "finding"], rows, "text") if rows else "<p>No findings.</p>"
-        return self.machine._repr_html_() + table
-
-    def to_frame(self) -> Any:
-        """Return the findings as a pandas data frame, a row each."""
-        rows = [{**asdict(one), "severity": one.severity.value} for one in self.findings]
-        return needed("pandas", "frame").DataFrame(rows, columns=[one.name for one in fields(Finding)])
-
-    def axis_list(self, number: int) -> Document | None:
-        """Return the list that describes an axis, by its logical ``number``."""
-        return self._axis_lists.get(number)
-
-    def compensation_list(self, number: int) -> Document | None:
-        """Return the list with the tables of an axis, by its logical ``number``."""
-        return self._compensation_lists.get(number)
-
-    def again(self) -> Reading:
-        """Read the documents as they are now; those that have not been changed since are not parsed again."""
-        return read_machine(self.path, documents=self.documents.values(), axis_type=self.axis_type)
-
-    def located(self, findings: Iterable[Finding]) -> tuple[Finding, ...]:
-        """Return ``findings`` about these lists with the columns of the entries they are about."""
-        return outside(located(findings, self.documents), self.documents)
 
 
 _NUMBER = "kopf.achs_nr"
@@ -116,6 +38,7 @@ def read_machine(
     documents: Iterable[Document] | None = None,
     beside_disk: bool = False,
     axis_type: TypeName | None = None,
+    allow_outside: Iterable[str | PathLike[str]] = (),
 ) -> Reading:
     """Read the lists of a machine.
 
@@ -135,6 +58,8 @@ def read_machine(
     axis_type : str, optional
         ``rotary`` or ``modulo``: without any axis list, of the axes that have compensation lists. All others, and all
         without it, are translatory.
+    allow_outside : iterable of path
+        Folders that names in the lists may lead into; else only the folder of the machine.
 
     Raises
     ------
@@ -149,8 +74,9 @@ def read_machine(
     (['X', 'Y'], 0)
     """
     findings = Findings()
-    reader = _MachineReader(findings, Files(findings, documents, beside_disk), axis_type)
-    reading = reader.read(Path(path))
+    allowed = tuple(map(Path, allow_outside))
+    reader = _MachineReader(findings, Files(findings, documents, beside_disk, allowed), axis_type)
+    reading = replace(reader.read(Path(path)), allow_outside=allowed)
     errors = [finding for finding in reading.findings if finding.severity is Severity.ERROR]
     if strict and errors:
         raise ListError(errors)
@@ -158,7 +84,7 @@ def read_machine(
 
 
 def reread_volumetric(
-    path: str | PathLike[str], index: int, files: Mapping[int, str]
+    path: str | PathLike[str], index: int, files: Mapping[int, str], allow_outside: Iterable[str | PathLike[str]] = ()
 ) -> tuple[Volumetric | None, tuple[Finding, ...]]:
     """Read one volumetric compensation of a machine again.
 
@@ -170,6 +96,8 @@ def reread_volumetric(
         Of the compensation.
     files : mapping of int to str
         Parameter files to be read instead of those the list names, by their index.
+    allow_outside : iterable of path
+        As for ``read_machine``.
 
     Returns
     -------
@@ -179,10 +107,11 @@ def reread_volumetric(
         What there is to say about this compensation.
     """
     findings, others = Findings(), Findings()
-    start = _MachineReader(others, Files(others)).start(Path(path))
+    allowed = tuple(map(Path, allow_outside))
+    start = _MachineReader(others, Files(others, allowed=allowed)).start(Path(path))
     if start is None:
         return None, ()
-    read = Files(findings)
+    read = Files(findings, allowed=allowed)
     volumetric = read_one(index, start.lists, read, start.axes, findings, files)
     return volumetric, outside(located(findings.all(), read.documents), read.documents)
 
@@ -390,7 +319,8 @@ class _MachineReader:
 
     @staticmethod
     def _note_inactive(kind: Kind[Any], source: TableReader) -> None:
-        name = next(name for name in kind.columns if source.values.cells(name))
+        # There may be no more of a table than its size.
+        name = next(name for name in (*kind.columns, *kind.sizes) if source.values.cells(name))
         entry = kind.activator.name
         message = f"There is a {kind.name} table, but {entry} of axis {source.axis.number} is 0: it does not act."
         source.note(kind.inactive_code, name, message, *min(source.values.cells(name)))

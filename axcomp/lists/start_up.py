@@ -75,7 +75,9 @@ class MachineFiles:
 
 def find_lists(path: Path, files: Files, findings: Findings) -> MachineFiles:
     """Return the lists of a machine: ``path`` is a start-up list, a folder, or a single list of any kind."""
-    if files.is_dir(path):
+    is_folder = files.is_dir(path)
+    files.enter(path if is_folder else path.parent)
+    if is_folder:
         found = _in_folder(path, START_UP_NAME, files)
         if not found:
             return _lists_of_folder(path, files, findings)

@@ -38,7 +38,7 @@ from ..model import (
 from .axes import Axes, AxisSettings
 from .catalogue_volumetric import AUTO, ETALON_EXCHANGE
 from .etalon import read_etalon
-from .files import Files
+from .files import SIZE_MAX, Files, is_absolute
 from .findings import Findings
 from .isg_csv import read_isg_csv
 from .recognition import parameter_format
@@ -51,6 +51,9 @@ LIMIT_MAX = 429_496.7295
 """Largest s_limit that an axis list can hold, mm."""
 _JUMP = 1e-9
 """mm or rad; below that a table is continuous."""
+
+_HEAD_BYTES, _RECORD_BYTES = 1_000_000, 400
+"""Bytes that a parameter file may have for its comments, and for each record: 7 numbers, blanks and a comment."""
 
 _FILE_NAME, _MAX_RECORDS = "vol_comp[i].file_name", "vol_comp[i].max_records"
 
@@ -81,7 +84,9 @@ def read_one(
     values = document.read_as(ListKind.VOLUMETRIC, findings)
     reader = VolumetricReader(index, values, lists, files, axes, findings, named)
     volumetric = reader.read()
-    if findings.errors() > errors:
+    is_faulty = findings.errors() > errors
+    reader.check_diagnosis_file()
+    if is_faulty:
         return None
     reader.check_limits(dict(volumetric.axes))
     return volumetric
@@ -183,7 +188,7 @@ class VolumetricReader:
             if not name:
                 continue
             path = self.files.named(self.lists.folder, name, (*self.values.place("file[j]", j), f"file[{j}]"))
-            document = None if path is None else self.files.document(path)
+            document = None if path is None else self.files.document(path, size_of_records(self._max_records()))
             if document is None:
                 empty = False
                 continue
@@ -246,6 +251,17 @@ class VolumetricReader:
 
     def _has_type(self, number: int, letter: str) -> bool:
         return (self.axes.get(number).type is AxisType.TRANSLATORY) == (letter in LINEAR)
+
+    def check_diagnosis_file(self) -> None:
+        """Find a diagnosis file that would not be written: it is to lie outside."""
+        name = self.values.text("diagnosis_file")
+        try:
+            outside = name and not is_absolute(name) and self.files.place(self.lists.folder, name) is None
+        except (OSError, ValueError):
+            outside = False
+        if outside:
+            message = f"{name!r} leads out of the folder of the machine; it is not written without --allow-outside."
+            self._note("AXC-FOLDER", "diagnosis_file", message)
 
     def check_limits(self, assigned: dict[str, int]) -> None:
         """Look for the limits that switching on will ask for."""
@@ -345,6 +361,11 @@ class VolumetricReader:
         key, _, index = name.partition("[")
         place = self.values.place(f"{key}[j]", int(index[:-1])) if index else self.values.place(key)
         self.findings.add(code, *place, name, message)
+
+
+def size_of_records(count: int) -> int:
+    """Return how many bytes a parameter file may have of which so many records are read."""
+    return min(_HEAD_BYTES + _RECORD_BYTES * count, SIZE_MAX)
 
 
 def _arguments(parameters: Parameters) -> set[str]:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from ..kinds import KINDS, ListKind, kind_of
 from ..model import AXES_MAX, Axis, Compensation, Machine
+from ..saving import write_all
 from .document import Document
 from .format import Lines
 from .recognition import START_UP_NAME
-from .saving import write_whole
 from .volumetric_writer import check_records, format_parameters, format_volumetric_list, list_file, parameter_file
 
 _MODULO_MODE = 0x4
@@ -36,8 +36,7 @@ def write_machine(machine: Machine, folder: str | PathLike[str]) -> list[Path]:
     """
     documents = machine_documents(machine, folder)
     Path(folder).mkdir(parents=True, exist_ok=True)
-    for document in documents:
-        write_whole(document.path, document.to_bytes())
+    write_all({document.path: document.to_bytes() for document in documents})
     return [document.path for document in documents]
 
 

@@ -8,7 +8,18 @@ from .delaunay import Triangulation, triangulate, width
 from .extras import EXTRAS, MissingExtraError, extra_with, missing, needed, sentence
 from .grid import Grid, Scatter
 from .html import as_html
-from .machine import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, AxisType, Compensation, Machine, ModuloRange
+from .machine import (
+    AXES_MAX,
+    CYCLE_TIME,
+    CYCLE_TIME_MAX,
+    LARGEST_STEP,
+    SHORTEST_RANGE,
+    Axis,
+    AxisType,
+    Compensation,
+    Machine,
+    ModuloRange,
+)
 from .quantity import Quantity, Shown, shown, symbol
 from .tabular import Tabular, Tabulated
 from .volumetric import (
@@ -57,6 +68,7 @@ __all__ = [
     "EXTRAS",
     "FILES_MAX",
     "FULL_TURN",
+    "LARGEST_STEP",
     "LENGTH_MAX",
     "LETTERS",
     "LINEAR",
@@ -65,6 +77,7 @@ __all__ = [
     "OFFSETS",
     "PARAMETERS",
     "ROTARY",
+    "SHORTEST_RANGE",
     "TOOL_ORIENTATION",
     "TOOL_POSITION",
     "UNIT_TOLERANCE",

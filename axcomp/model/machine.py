@@ -22,6 +22,8 @@ AXES_MAX = 32
 CYCLE_TIME = 0.001
 """Default cycle time of the position controller in s: no list names it."""
 
+LARGEST_STEP = 10_000_000
+"""Cycles that a communication step may have, unless the host allows more: a longer one would seem to hang."""
 CYCLE_TIME_MAX = 1e3
 """Cycle times are shorter, s."""
 
@@ -78,6 +80,10 @@ class Compensation:
 AnyCompensation = TypeVar("AnyCompensation", bound=Compensation)
 
 
+SHORTEST_RANGE = 1e-6
+"""Modulo ranges are longer, °."""
+
+
 @dataclass(frozen=True)
 class ModuloRange:
     """Range of a modulo axis in ° (P-AXIS-00127, P-AXIS-00126): positions repeat every ``end − start``."""
@@ -126,12 +132,11 @@ class Axis:
 
     Examples
     --------
-    >>> from axcomp import Axis, models, read_machine
-    >>> axis = read_machine(models() / "rotary_table").machine.axis("C")
-    >>> axis.unit, axis.kinds == tuple(one.kind for one in axis.compensations)
-    ('deg', True)
-    >>> Axis(1, "X", backlash_cycles=5)
-    Axis(1 X, translatory)
+    >>> from axcomp import Axis
+    >>> from axcomp.kinds import Backlash
+    >>> axis = Axis(1, "X", backlash_cycles=5, backlash=Backlash(0.01))
+    >>> axis.unit, axis.kinds, axis.cross
+    ('mm', ('backlash',), None)
     """
 
     number: int

@@ -24,17 +24,26 @@ if TYPE_CHECKING:
         image_of as image_of,
         tables_source as tables_source,
     )
-    from .layout import ctypes_of as ctypes_of, from_c as from_c, to_c as to_c
-    from .library import SWITCH as SWITCH, compiled_kernel as compiled_kernel
+    from .layout import address_of as address_of, ctypes_of as ctypes_of, from_c as from_c, to_c as to_c
+    from .library import SWITCH as SWITCH, compiled_kernel as compiled_kernel, wasm_kernel as wasm_kernel
     from .places import layout_header as layout_header, places_source as places_source
-    from .prebuilt import prebuilt_path as prebuilt_path, why_not_prebuilt as why_not_prebuilt
+    from .prebuilt import WASM as WASM, prebuilt_path as prebuilt_path, why_not_prebuilt as why_not_prebuilt
     from .records import records_source as records_source
-    from .runner import CompiledTables as CompiledTables, run_compiled as run_compiled
+    from .runner import (
+        NOTHING as NOTHING,
+        POKES_MAX as POKES_MAX,
+        Bound as Bound,
+        CompiledRuntime as CompiledRuntime,
+        Fields as Fields,
+        Poke as Poke,
+    )
     from .sources import (
         HEADERS as HEADERS,
         LIBRARY_HEADERS as LIBRARY_HEADERS,
         LIBRARY_SOURCES as LIBRARY_SOURCES,
         SOURCES as SOURCES,
+        THIRD_HEADERS as THIRD_HEADERS,
+        THIRD_SOURCES as THIRD_SOURCES,
         source_bytes as source_bytes,
         source_path as source_path,
     )
@@ -44,11 +53,11 @@ else:
         compiler="CompilerError FLAGS PLATFORMS compile_library compile_program compiler_of cross_compile "
         "has_cross_compiler own_platform",
         image="HEADER_BEFORE_CHECK MAGIC image_of tables_source",
-        layout="ctypes_of from_c to_c",
-        library="SWITCH compiled_kernel",
+        layout="address_of ctypes_of from_c to_c",
+        library="SWITCH compiled_kernel wasm_kernel",
         places="layout_header places_source",
-        prebuilt="prebuilt_path why_not_prebuilt",
+        prebuilt="WASM prebuilt_path why_not_prebuilt",
         records="records_source",
-        runner="CompiledTables run_compiled",
-        sources="HEADERS LIBRARY_HEADERS LIBRARY_SOURCES SOURCES source_bytes source_path",
+        runner="Bound CompiledRuntime Fields NOTHING POKES_MAX Poke",
+        sources="HEADERS LIBRARY_HEADERS LIBRARY_SOURCES SOURCES THIRD_HEADERS THIRD_SOURCES source_bytes source_path",
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..model import fmu_sources
+from ..saving import write_whole
 from .places import layout_header, places_source
 from .records import records_source
 
@@ -13,7 +14,7 @@ def write(folder: Path) -> list[Path]:
     """Write ``layout.h``, ``places.c`` and ``records.c``; return their paths."""
     texts = {"layout.h": layout_header(), "places.c": places_source(), "records.c": records_source()}
     for name, text in texts.items():
-        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+        write_whole(folder / name, text)
     return [folder / name for name in texts]
 
 

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from ..saving import write_whole
 from .universal import universal
 
 FLAGS = ("-std=c99", "-O3", "-ffp-contract=off", "-g0", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
@@ -25,20 +26,24 @@ SSE = ("-msse2", "-mfpmath=sse")
 
 
 class Platform(NamedTuple):
-    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machines in one."""
+    """A platform of FMI 2.0 (section 2.3): how its libraries are called, and what zig calls the machines in one.
+
+    ``third``: the folders of its library in FMI 3.0 (section 2.5.1.4).
+    """
 
     suffix: str
     zig_targets: tuple[str, ...]
+    third: tuple[str, ...]
     flags: tuple[str, ...] = ()
 
 
 PLATFORMS = {
-    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",)),
-    "win64": Platform(".dll", ("x86_64-windows-gnu",)),
-    "darwin64": Platform(".dylib", ("x86_64-macos.11.0", "aarch64-macos.11.0")),
-    "aarch64-linux": Platform(".so", ("aarch64-linux-gnu.2.17",)),
-    "linux32": Platform(".so", ("x86-linux-gnu.2.17",), SSE),
-    "win32": Platform(".dll", ("x86-windows-gnu",), SSE),
+    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",), ("x86_64-linux",)),
+    "win64": Platform(".dll", ("x86_64-windows-gnu",), ("x86_64-windows",)),
+    "darwin64": Platform(".dylib", ("x86_64-macos.11.0", "aarch64-macos.11.0"), ("x86_64-darwin", "aarch64-darwin")),
+    "aarch64-linux": Platform(".so", ("aarch64-linux-gnu.2.17",), ("aarch64-linux",)),
+    "linux32": Platform(".so", ("x86-linux-gnu.2.17",), ("x86-linux",), SSE),
+    "win32": Platform(".dll", ("x86-windows-gnu",), ("x86-windows",), SSE),
 }
 """Those that FMUs are built for; the Linux libraries need glibc 2.17 or newer."""
 
@@ -98,7 +103,7 @@ def cross_compile(sources: Sequence[Path], output: Path, *, platform: str, flags
             one.parent.mkdir()
             compile_library(sources, one, compiler=zig(target), platform=platform, flags=flags)
             slices.append(one.read_bytes())
-    output.write_bytes(slices[0] if len(slices) == 1 else universal(slices))
+    write_whole(output, slices[0] if len(slices) == 1 else universal(slices))
 
 
 def compile_library(
@@ -118,6 +123,12 @@ def compile_library(
     if platform == "darwin64":
         linking.append("-Wl,-s")
     _compile([*compiler, *FLAGS, *PLATFORMS[platform].flags, *flags], sources, output, linking)
+
+
+def compile_wasm(sources: Sequence[Path], output: Path) -> None:
+    """Compile C sources with zig into a WebAssembly module that needs nothing of its host; raises as the above."""
+    linking = ["-mexec-model=reactor", "-Wl,-s", "-Wl,--export-dynamic"]
+    _compile([*zig("wasm32-wasi"), *FLAGS], sources, output, linking)
 
 
 def compile_program(

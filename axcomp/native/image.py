@@ -58,7 +58,7 @@ def tables_source(compiled: Compiled, guid: str, *, real_only: bool = False) -> 
     parts.append(
         "/* Nothing writes through the pointers: these tables are in force from beginning to end. */\n"
         f'const Lists axcomp_tables = {{{{{tables_of}}}, pool, {len(pool)}, 0x{identity:08x}u, "{guid}", '
-        f"{str(real_only).lower()}}};\n"
+        f"{str(real_only).lower()}, false, false}};\n"
     )
     return "\n".join(parts)
 

@@ -27,14 +27,17 @@ def _structure_of(cls: Any) -> type[ctypes.Structure]:
 
 
 def to_c(record: Any, struct: ctypes.Structure) -> None:
-    """Copy a record into its structure; a list that is shorter than its array fills the front of it."""
+    """Copy a record into its structure; a list that is shorter than its array fills the front of it.
+
+    An array that lies apart is made as long as its list where the structure does not point to one yet.
+    """
     for name, hint in fields_of(type(record)).items():
         value = getattr(record, name)
         if hint in _SCALARS:
             setattr(struct, name, value)
         elif get_origin(hint) is Annotated:
             array = getattr(struct, name)
-            if _is_apart(hint):
+            if _is_apart(hint) and not array:
                 array = (array._type_ * max(len(value), 1))()
                 setattr(struct, name, array)  # which keeps it alive
             _list_to_c(value, array)
@@ -71,7 +74,8 @@ def _list_to_c(values: list[Any], array: Any) -> None:
         for record, struct in zip(values, array, strict=False):
             to_c(record, struct)
     else:
-        array[: len(values)] = values
+        for i, value in enumerate(values):  # a pointer takes no slices
+            array[i] = value
 
 
 def _list_from_c(array: Any, values: list[Any]) -> None:
@@ -82,7 +86,7 @@ def _list_from_c(array: Any, values: list[Any]) -> None:
         values[:] = array[: len(values)]
 
 
-def address_of(struct: ctypes.Structure, path: str) -> int:
+def address_of(struct: Any, path: str) -> int:
     """Return where in memory a field of a structure is; ``path`` as in ``interface.slot``."""
     *steps, last = steps_of(path)
     owner: Any = struct

@@ -9,13 +9,23 @@ import os
 import platform
 import sys
 import tempfile
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
-from .compiler import FLAGS, PLATFORMS, CompilerError, compile_library, compiler_of, own_platform
+from .compiler import (
+    FLAGS,
+    PLATFORMS,
+    CompilerError,
+    compile_library,
+    compile_wasm,
+    compiler_of,
+    has_cross_compiler,
+    own_platform,
+)
 from .places import layout
-from .prebuilt import prebuilt_path, why_not_prebuilt
-from .sources import LIBRARY_SOURCES, source_path, sources_checksum
+from .prebuilt import WASM, prebuilt_path, why_not_prebuilt
+from .sources import LIBRARY_SOURCES, WASM_SOURCES, source_path, sources_checksum
 
 SWITCH = "AXCOMP_KERNEL"
 """Environment variable: ``python`` keeps the Engine from using a compiled kernel."""
@@ -45,17 +55,41 @@ def _prebuilt() -> Path:
     return prebuilt_path(own_platform())
 
 
+def wasm_kernel() -> bytes:
+    """Return the kernel in WebAssembly: what comes with the package, or is compiled where its sources have changed.
+
+    Raises
+    ------
+    CompilerError
+        If it has to be compiled and that is not possible.
+    """
+    if not why_not_prebuilt():
+        return prebuilt_path(WASM).read_bytes()
+    if not has_cross_compiler():
+        raise CompilerError(f"{why_not_prebuilt()}; here that needs a cross compiler: pip install axcomp[cross]")
+    sources = [source_path(name) for name in WASM_SOURCES]
+    return _cached("wasm32", ".wasm", lambda new: compile_wasm(sources, new)).read_bytes()
+
+
 def _compiled() -> Path:
-    """Return the path of the library in the cache; it is compiled under the name of its content."""
-    digest = hashlib.sha256(" ".join((*FLAGS, platform.machine(), sources_checksum())).encode())
-    path = _cache_folder() / f"kernel-{digest.hexdigest()[:16]}{PLATFORMS[own_platform()].suffix}"
+    target = own_platform()
+    sources = [source_path(name) for name in LIBRARY_SOURCES]
+    return _cached(
+        platform.machine(),
+        PLATFORMS[target].suffix,
+        lambda new: compile_library(sources, new, compiler=compiler_of(target), platform=target),
+    )
+
+
+def _cached(processor: str, suffix: str, make: Callable[[Path], None]) -> Path:
+    """Return the path of a library in the cache; ``make`` compiles it, under the name of its content."""
+    digest = hashlib.sha256(" ".join((*FLAGS, processor, sources_checksum())).encode())
+    path = _cache_folder() / f"kernel-{digest.hexdigest()[:16]}{suffix}"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=path.parent) as work:
             new = Path(work) / path.name
-            target = own_platform()
-            sources = [source_path(name) for name in LIBRARY_SOURCES]
-            compile_library(sources, new, compiler=compiler_of(target), platform=target)
+            make(new)
             new.replace(path)
     return path
 

@@ -18,13 +18,16 @@ from ..interface import (
     MACHINE_BLOCK,
     OF_MACHINE,
     OF_VOLUMETRIC,
+    TABLE_BLOCK,
+    TIME_REFERENCE,
     TYPE_NAMES,
     VOLUMETRIC_BLOCK,
     Declaration,
+    every_array,
 )
 from ..kernel import AxisTable, Inputs, Outputs, State, VolumetricTable, fields_of
 from ..kinds import KIND_NAMES, KINDS
-from ..model import CYCLE_TIME_MAX
+from ..model import CYCLE_TIME_MAX, LARGEST_STEP
 from ..runtime import NO_COMMAND, ON_INSTANT
 from .records import GENERATED, parts_of, size_of
 
@@ -57,7 +60,11 @@ def layout_header() -> str:
 #define AXCOMP_ON_INSTANT {ON_INSTANT!r}  /* share of a cycle by which a communication point may miss an instant */
 #define AXCOMP_CYCLE_TIME_MAX {CYCLE_TIME_MAX!r}  /* s; cycle times are shorter */
 
+enum {{ AXCOMP_LARGEST_STEP = {LARGEST_STEP} }}; /* cycles of a communication step, unless the host says more */
+
 enum {{ MACHINE_BLOCK = {MACHINE_BLOCK}, AXIS_BLOCK = {AXIS_BLOCK}, VOLUMETRIC_BLOCK = {VOLUMETRIC_BLOCK} }};
+/* Of FMI 3.0: the blocks of tables, and the independent variable. */
+enum {{ TABLE_BLOCK = {TABLE_BLOCK}, TIME_REFERENCE = {TIME_REFERENCE} }};
 
 #endif
 """
@@ -71,6 +78,8 @@ def places_source() -> str:
         last = max(reference for reference in places if reference // BLOCK == block) % BLOCK
         rows = [f"    AT({i}) {places.get(BLOCK * block + i, NO_PLACE)}" for i in range(last + 1)]
         parts.append(f"const Place {table}[PLACES] = {{\n" + ",\n".join(rows) + "\n};\n")
+    rows = [f"    {row}" for row in (*_arrays(), "{0, 0, 0, 0, 0, 0, NULL}")]
+    parts.append("const TableArray axcomp_table_arrays[] = {\n" + ",\n".join(rows) + "\n};\n")
     rows = [
         f"    AT({name.upper()}) " + (f'"{kind.notice}"' if kind.notice else "NULL") for name, kind in KINDS.items()
     ]
@@ -88,6 +97,13 @@ def _places() -> Iterator[tuple[int, str]]:
             causality = "t" if declared.variability == "tunable" else declared.causality[0]
             place = f"offsetof({_member(block, declared)})"
             yield BLOCK * block + declared.identifier, f"{{'{kind}', '{causality}', {place}}}"
+
+
+def _arrays() -> Iterator[str]:
+    for kind, identifier, array in every_array():
+        paths = (array.at, array.points, array.rows, array.argument)
+        places = [f"offsetof(AxisTable, compensation.{kind}.{path})" if path else "0" for path in paths]
+        yield ",\n     ".join((f"{{{identifier}, '{array.of}'", *places, f'"{kind}.{array.name}"}}'))
 
 
 def _by_name(found: re.Match[str]) -> str:

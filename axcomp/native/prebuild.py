@@ -16,9 +16,10 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from .compiler import PLATFORMS, CompilerError, cross_compile, has_cross_compiler
-from .prebuilt import FOLDER, MANIFEST, prebuilt_path
-from .sources import LIBRARY_SOURCES, source_path, sources_checksum
+from ..saving import write_all
+from .compiler import PLATFORMS, CompilerError, compile_wasm, cross_compile, has_cross_compiler
+from .prebuilt import FOLDER, MANIFEST, WASM, prebuilt_path
+from .sources import LIBRARY_SOURCES, WASM_SOURCES, source_path, sources_checksum
 
 COMPILER = "0.17.1"
 """Version of ziglang; another one gives other bytes. The extra ``cross`` asks for it."""
@@ -27,13 +28,16 @@ NAME = "axcomp"
 """What linkers note in a library is this, not the name of its file."""
 
 
-def build_libraries(folder: Path, platforms: Sequence[str] = tuple(PLATFORMS)) -> dict[str, bytes]:
+def build_libraries(folder: Path, platforms: Sequence[str] = (*PLATFORMS, WASM)) -> dict[str, bytes]:
     """Build libraries in a folder below ``folder`` each; return platform → bytes. CompilerError if one fails."""
 
     def build(platform: str) -> bytes:
-        output = folder / platform / f"{NAME}{PLATFORMS[platform].suffix}"
+        output = folder / platform / f"{NAME}{prebuilt_path(platform).suffix}"
         output.parent.mkdir(parents=True)
-        cross_compile([source_path(name) for name in LIBRARY_SOURCES], output, platform=platform)
+        if platform == WASM:
+            compile_wasm([source_path(name) for name in WASM_SOURCES], output)
+        else:
+            cross_compile([source_path(name) for name in LIBRARY_SOURCES], output, platform=platform)
         return output.read_bytes()
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -68,8 +72,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("".join(f"{name} is not what the sources give\n" for name in other), end="", file=sys.stderr)
         return 1 if other else 0
     FOLDER.mkdir(exist_ok=True)
+    write_all(files)
     for path, data in files.items():
-        path.write_bytes(data)
         print(f"{path.name}: {len(data)} bytes")
     return 0
 

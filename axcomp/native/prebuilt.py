@@ -15,12 +15,15 @@ FOLDER = Path(__file__).with_name("prebuilt")
 MANIFEST = FOLDER / "manifest.json"
 """``compiler``, ``sources``: their checksum, ``libraries``: file name → checksum."""
 
+WASM = "wasm32"
+"""The kernel in WebAssembly, which no FMU holds."""
+
 STALE = "the C sources have changed since the libraries were built (python -m axcomp.native.prebuild builds them again)"
 
 
 def prebuilt_path(platform: str) -> Path:
-    """Return where the library of a platform lies."""
-    return FOLDER / f"{platform}{PLATFORMS[platform].suffix}"
+    """Return where the library of a platform, or of ``WASM``, lies."""
+    return FOLDER / f"{platform}{'.wasm' if platform == WASM else PLATFORMS[platform].suffix}"
 
 
 @cache
@@ -30,7 +33,7 @@ def why_not_prebuilt() -> str:
         manifest: dict[str, Any] = json.loads(MANIFEST.read_text(encoding="utf-8"))
         if manifest["sources"] != sources_checksum():
             return STALE
-        for platform in PLATFORMS:
+        for platform in (*PLATFORMS, WASM):
             path = prebuilt_path(platform)
             if hashlib.sha256(path.read_bytes()).hexdigest() != manifest["libraries"][path.name]:
                 return f"{path.name} is not the library that was built"

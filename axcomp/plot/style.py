@@ -19,6 +19,8 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path
 from PIL import Image
 
+from ..saving import write_whole
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -155,5 +157,9 @@ def _paths(artist: Any) -> list[Path]:
 
 
 def save(figure: Figure, path: FilePath) -> None:
-    """Write a figure as a PNG file."""
-    path.write_bytes(png(figure))
+    """Write a figure as what the suffix says, PNG where there is none; ValueError if that cannot be drawn."""
+    form = path.suffix[1:].lower() or "png"
+    stream = io.BytesIO()
+    if form != "png":
+        figure.savefig(stream, format=form)
+    write_whole(path, stream.getvalue() or png(figure))

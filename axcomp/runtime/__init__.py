@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .compile import Compiled, CompileError, compile_tables
+from .compile import Compiled, CompileError, compile_tables, error_model
 from .runtime import NO_COMMAND, ON_INSTANT, Runtime, UpdateError, initial_inputs
 from .snapshot import SnapshotError, identity_of, pack, unpack
 
@@ -15,6 +15,7 @@ __all__ = [
     "SnapshotError",
     "UpdateError",
     "compile_tables",
+    "error_model",
     "identity_of",
     "initial_inputs",
     "pack",

@@ -5,17 +5,27 @@ The reader has sorted out what is implausible and said so; a Machine made by han
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
-from ..kernel import CYCLES_MAX, LARGEST, AxisTable, Tables, Vec, zero
+from ..kernel import CYCLES_MAX, LARGEST, AxisTable, Tables, Vec, VolumetricTable, zero
 from ..kinds import AxisCompiler, CompileError, kind_of, kinds_of
-from ..model import AXES_MAX, CYCLE_TIME, CYCLE_TIME_MAX, Axis, Compensation, Machine
+from ..model import (
+    AXES_MAX,
+    CYCLE_TIME,
+    CYCLE_TIME_MAX,
+    LETTERS,
+    LINEAR,
+    SHORTEST_RANGE,
+    Axis,
+    AxisType,
+    Compensation,
+    Machine,
+    Volumetric,
+)
 from .compile_volumetric import compile_volumetric
 
-__all__ = ["CompileError", "Compiled", "compile_tables"]
-
-SHORTEST_RANGE = 1e-6
-"""Modulo ranges are longer, °."""
+__all__ = ["CompileError", "Compiled", "compile_tables", "error_model"]
 
 
 class Compiled(NamedTuple):
@@ -46,9 +56,8 @@ def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Compiled
         raise CompileError(f"{len(machine.axes)} axes: at most {AXES_MAX} are possible")
     if len({axis.number for axis in machine.axes}) < len(machine.axes):
         raise CompileError("two axes have the same logical number")
-    tables, pool = zero(Tables), Vec()
-    tables.cycle_time = cycle_time
-    tables.axis_count = len(machine.axes)
+    count, pool = len(machine.axes), Vec()
+    tables = Tables(cycle_time, count, [zero(AxisTable) for _ in range(count)], 0, [])
     for index, axis in enumerate(machine.axes):
         table = tables.axis[index]
         table.first = len(pool)
@@ -56,6 +65,14 @@ def compile_tables(machine: Machine, cycle_time: float = CYCLE_TIME) -> Compiled
         table.numbers = len(pool) - table.first
     compile_volumetric(machine, tables, pool)
     return Compiled(tables, pool)
+
+
+def error_model(volumetric: Volumetric) -> tuple[Vec, VolumetricTable]:
+    """Return pool and table of a volumetric compensation on its own, for ``correction_at`` and its like."""
+    types = {letter: AxisType.TRANSLATORY if letter in LINEAR else AxisType.ROTARY for letter in LETTERS}
+    axes = tuple(Axis(number, letter, types[letter]) for letter, number in volumetric.axes)
+    tables, pool = compile_tables(Machine(axes, (replace(volumetric, index=0),)))
+    return pool, tables.volumetric[0]
 
 
 def _compile_axis(axis: Axis, compiler: AxisCompiler, table: AxisTable) -> None:

@@ -16,6 +16,7 @@ from ..kernel import (
     Tables,
     Vec,
     VolumetricTable,
+    zero,
 )
 from ..kinds import CompileError, append
 from ..model import (
@@ -63,6 +64,7 @@ def compile_volumetric(machine: Machine, tables: Tables, pool: Vec) -> None:
             f"volumetric compensations have different numbers 0 … {COMPENSATIONS_MAX - 1}, not {indices}"
         )
     tables.volumetrics = max(indices, default=-1) + 1
+    tables.volumetric = [zero(VolumetricTable) for _ in range(tables.volumetrics)]
     for volumetric in machine.volumetric:
         _Compiler(machine, volumetric, tables.volumetric[volumetric.index], pool, tables.cycle_time).compile()
 

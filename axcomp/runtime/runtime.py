@@ -26,6 +26,7 @@ from ..kernel import (
     has_notice,
     keep_declared,
     move_axis_table,
+    state_fits,
     update_error,
     zero,
 )
@@ -40,6 +41,10 @@ ON_INSTANT = 0.01
 
 NO_COMMAND = "an input switch was neither -1, 0 nor 1; it commanded nothing"
 """What is told of an axis with ``ERROR_SWITCH``."""
+
+
+CYCLES_MAX = 2.0**53
+"""Cycles of a run are counted exactly."""
 
 
 class UpdateError(ValueError):
@@ -77,17 +82,20 @@ class Runtime:
         self.tables, self.pool = compile_tables(machine, cycle_time)
         self._identity: int | None = None
         self._volumetrics = {volumetric.index for volumetric in machine.volumetric}
-        self.inputs = initial_inputs(self.tables)
-        self.state = zero(State)
-        self.outputs = zero(Outputs)
-        del self.state.axis[self.tables.axis_count :]
-        del self.state.motion.axis[self.tables.axis_count :]
-        del self.outputs.axis[self.tables.axis_count :]
-        del self.state.volumetric[self.tables.volumetrics :]
-        del self.outputs.volumetric[self.tables.volumetrics :]
+        self.state, self.inputs, self.outputs = self._records()
         self.start_time = 0.0
         self.cycles = 0
         self._told: set[str] = set()
+        self._tellable: tuple[Machine, list[tuple[int, int | None, str]]] | None = None
+
+    def _records(self) -> tuple[State, Inputs, Outputs]:
+        """Return records for a machine of this size."""
+        state, outputs = zero(State), zero(Outputs)
+        for axes in (state.axis, state.motion.axis, outputs.axis):
+            del axes[self.tables.axis_count :]
+        for volumetrics in (state.volumetric, outputs.volumetric):
+            del volumetrics[self.tables.volumetrics :]
+        return state, initial_inputs(self.tables), outputs
 
     def begin(self, time: float = 0.0) -> None:
         """Set the clock and compute the outputs of the first cycle without running it (end of initialization)."""
@@ -102,9 +110,12 @@ class Runtime:
 
     def advance(self, time: float) -> None:
         """Run the cycles whose instants lie before ``time`` (s) and have not been run, with the inputs held."""
-        due = math.ceil((time - self.start_time) / self.tables.cycle_time - ON_INSTANT)
-        while self.cycles < due:
+        for _ in range(self.due(time)):
             self.cycle()
+
+    def due(self, time: float) -> int:
+        """Return how many cycles ``advance`` would run; 0 or less: none."""
+        return math.ceil((time - self.start_time) / self.tables.cycle_time - ON_INSTANT) - self.cycles
 
     def save(self) -> bytes:
         """Return a snapshot of everything that changes: state, inputs, outputs and the clock."""
@@ -117,7 +128,15 @@ class Runtime:
         The machine is the one in force: a snapshot from before an ``update`` belongs to another one.
         """
         clock = [0.0, 0.0]
-        unpack(data, self._machine_identity(), self.state, self.inputs, self.outputs, clock)
+        records = (self.state, self.inputs, self.outputs, clock)
+        before = pack(self._machine_identity(), *records)
+        try:
+            unpack(data, self._machine_identity(), *records)
+            if not (state_fits(self.tables, self.state) and 0.0 <= clock[1] <= CYCLES_MAX and math.isfinite(clock[0])):
+                raise SnapshotError("the snapshot has numbers that no run leads to")
+        except SnapshotError:
+            unpack(before, self._machine_identity(), *records)
+            raise
         self.start_time = clock[0]
         self.cycles = int(clock[1])
 
@@ -140,12 +159,12 @@ class Runtime:
 
     def notices(self) -> Iterator[str]:
         """Yield, once each, what the machine's user should know about the motion so far."""
-        for axis, state in zip(self.machine.axes, self.state.axis, strict=True):
-            found = [kind.notice for kind in kinds_of(axis) if has_notice(kind.number, state.compensation)]
-            if state.error == ERROR_SWITCH:
-                found.append(NO_COMMAND)
-            for notice in (f"axis {axis.name}: {text}" for text in found):
-                if notice not in self._told:
+        if not self._tellable or self._tellable[0] is not self.machine:
+            self._tellable = self.machine, list(_tellable(self.machine))
+        for index, number, notice in self._tellable[1]:
+            if notice not in self._told:
+                axis = self.state.axis[index]
+                if axis.error == ERROR_SWITCH if number is None else has_notice(number, axis.compensation):
                     self._told.add(notice)
                     yield notice
 
@@ -215,6 +234,15 @@ class Runtime:
         self.outputs.volumetric[index].active = False
         self.machine, self.tables, self.pool = machine, after, pool
         self._identity = None
+
+
+def _tellable(machine: Machine) -> Iterator[tuple[int, int | None, str]]:
+    """Yield what there can be to tell: index of an axis, number of a kind, None: of its switches, and the notice."""
+    for index, axis in enumerate(machine.axes):
+        for kind in kinds_of(axis):
+            if kind.notice:
+                yield index, kind.number, f"axis {axis.name}: {kind.notice}"
+        yield index, None, f"axis {axis.name}: {NO_COMMAND}"
 
 
 __all__ = ["Runtime", "SnapshotError", "UpdateError", "initial_inputs"]

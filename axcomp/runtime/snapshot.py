@@ -41,7 +41,8 @@ def unpack(data: bytes, identity: int, *records: Any) -> None:
     Raises
     ------
     SnapshotError
-        If the bytes are truncated or altered, or belong to something else; the records are as before then.
+        If the bytes are truncated or altered, or belong to something else; the records are as before then, unless a
+        number is not finite that must be whole.
     """
     if len(data) < HEADER.size:
         raise SnapshotError("the snapshot is truncated")
@@ -56,8 +57,11 @@ def unpack(data: bytes, identity: int, *records: Any) -> None:
     numbers = array("d")
     numbers.frombytes(body)
     source = iter(numbers)
-    for record in records:
-        _restore(record, source)
+    try:
+        for record in records:
+            _restore(record, source)
+    except (ValueError, OverflowError):
+        raise SnapshotError("the snapshot has a number where only whole ones are") from None
 
 
 def _numbers(value: Any) -> Iterator[float]:

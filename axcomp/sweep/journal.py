@@ -1,7 +1,8 @@
 """Rows of a sweep on disk as they come, so that one that was stopped can go on.
 
-A line of JSON each: the key of the run and its row. The key is made of everything that decides the row, so a journal
-never gives a row to a run that has become another one.
+A line each: a checksum, then as JSON the key of the run and its row. The key is made of everything that decides the
+row, so a journal never gives a row to a run that has become another one. A line that was cut off or altered is none:
+its run is done again.
 """
 
 from __future__ import annotations
@@ -54,6 +55,10 @@ def _update(digest: Any, value: Any) -> None:
         digest.update(repr(value).encode())
 
 
+def _check(written: bytes) -> bytes:
+    return hashlib.sha256(written).hexdigest()[:16].encode()
+
+
 class Journal:
     """The rows so far, in a file that is made when the first one comes."""
 
@@ -62,19 +67,18 @@ class Journal:
         self._file: Any = None
 
     def rows(self, *, failed: bool = True) -> dict[str, Row]:
-        """Return the rows by key; ``failed``: those with an error too. A line that was cut off is none."""
+        """Return the rows by key; ``failed``: those with an error too."""
         found: dict[str, Row] = {}
         try:
-            lines = self.path.read_text(encoding="utf-8").splitlines()
+            lines = self.path.read_bytes().split(b"\n")
         except FileNotFoundError:
             return found
         for line in lines:
-            try:
-                key, row = json.loads(line)
+            check, _, written = line.partition(b" ")
+            if check == _check(written):
+                key, row = json.loads(written)
                 if failed or not row[ERROR]:
-                    found[str(key)] = dict(row)
-            except (ValueError, TypeError, KeyError):
-                continue
+                    found[key] = row
         return found
 
     def add(self, key: str, row: Row) -> None:
@@ -82,9 +86,10 @@ class Journal:
         if self._file is None:
             # What was cut off must not spoil the line that follows it.
             cut = self.path.exists() and not self.path.read_bytes().endswith(b"\n")
-            self._file = self.path.open("a", encoding="utf-8")
-            self._file.write("\n" if cut else "")
-        self._file.write(json.dumps([key, row]) + "\n")
+            self._file = self.path.open("ab")
+            self._file.write(b"\n" if cut else b"")
+        written = json.dumps([key, row]).encode()
+        self._file.write(_check(written) + b" " + written + b"\n")
         self._file.flush()
         os.fsync(self._file.fileno())
 

@@ -135,6 +135,8 @@ def varied(reading: Reading, changes: Sequence[tuple[ListEntry, Value]]) -> Iter
         name = entry.chosen(documents)
         if name not in own:
             own.add(name)
+            if documents[name].kind is not None and documents[name].is_text:
+                documents[name].entries  # noqa: B018  # parsed once, for all copies
             documents[name] = documents[name].copy()
         entry.applied(documents[name], value)
     return documents.values()

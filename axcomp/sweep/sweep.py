@@ -12,6 +12,7 @@ import pandas as pd
 
 from ..fmu import FOLDER, BuildError, packed_lists
 from ..lists import read_machine
+from ..saving import write_whole
 from .journal import SUFFIX, Journal, keys_of
 from .list_variation import ListEntry, varied
 from .spec import ERROR, FINDINGS, MACHINE, RUN, Run, Spec, SpecError
@@ -53,12 +54,10 @@ class Sweep:
 
     def save(self, path: Path) -> None:
         """Write the table, as ``.parquet`` or ``.csv``: there is either all of it or what was there before."""
-        unfinished = path.with_name(f"{path.name}.unfinished")
         if path.suffix.lower() == ".csv":
-            self.table.to_csv(unfinished, index=False, lineterminator="\n")
+            write_whole(path, self.table.to_csv(index=False, lineterminator="\n"))
         else:
-            self.table.to_parquet(unfinished, index=False, engine="pyarrow")
-        unfinished.replace(path)
+            write_whole(path, self.table.to_parquet(index=False, engine="pyarrow"))
 
     def plot(self, x: str, y: str, ax: Axes | None = None) -> Any:
         """Draw a result over a column, a line for each combination of the others that were varied.

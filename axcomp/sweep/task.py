@@ -22,6 +22,7 @@ from ..engine import LIMITS, Columns, Engine, InputFile, Motion, completed
 from ..fmu import content_guid
 from ..lists import Finding, Reading, Severity, read_machine
 from ..model import Machine
+from ..saving import write_whole
 from .list_variation import ListEntry, Table, Value, read_files, varied
 from .reductions import Column, Reduction
 from .settings import PARAMETERS
@@ -100,11 +101,8 @@ def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
     parameters = {s.name: value for s, value in run.values.items() if s.kind == "parameter"}
     cycle_time = float(parameters.get("cycle_time", job.cycle_time))
     duration = parameters.get("duration", job.duration)
-    trajectory = job.trajectory
-    if isinstance(trajectory, Motion):
-        own = {name: float(parameters[name]) for name in LIMITS if name in parameters}
-        trajectory = replace(trajectory, limits=replace(trajectory.limits, **own) if own else trajectory.limits)
-    columns = trajectory.sampled(cycle_time, None if duration is None else float(duration))
+    own = tuple((name, float(parameters[name])) for name in LIMITS if name in parameters)
+    columns = _columns(job, own, cycle_time, None if duration is None else float(duration))
     if source.is_fmu:
         starts = {name: value for name, value in parameters.items() if name not in PARAMETERS}
         return _simulate_fmu(source, run, columns, starts, cycle_time)
@@ -120,6 +118,15 @@ def _simulate(job: Job, run: Run) -> tuple[Mapping[str, Column], float, str]:
     inputs = {variable.name for variable in engine.variables if variable.causality == "input"}
     given = _given(run, columns, inputs, cycle_time, engine.modulo)
     return {**given, **engine.run(given).columns}, cycle_time, findings
+
+
+@lru_cache(MACHINES_KEPT)
+def _columns(job: Job, own: tuple[tuple[str, float], ...], cycle_time: float, duration: float | None) -> Columns:
+    """Return the trajectory with limits of a run's ``own``; runs that have none share it."""
+    trajectory = job.trajectory
+    if own and isinstance(trajectory, Motion):
+        trajectory = replace(trajectory, limits=replace(trajectory.limits, **dict(own)))
+    return trajectory.sampled(cycle_time, duration)
 
 
 def _given(run: Run, columns: Columns, known: set[str], cycle_time: float, modulo: Mapping[str, float]) -> Columns:
@@ -205,7 +212,7 @@ class _Unpacked:
 
         self.folder = tempfile.mkdtemp(prefix="axcomp-sweep-")
         packed = Path(self.folder, "packed.fmu")
-        packed.write_bytes(next(iter(source.files.values())))
+        write_whole(packed, next(iter(source.files.values())))
         extract(str(packed), unzipdir=self.folder)
         self.description = read_model_description(self.folder, validate=False)
 

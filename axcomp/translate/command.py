@@ -7,6 +7,7 @@ import ast
 import sys
 from pathlib import Path
 
+from ..saving import write_whole
 from .emit import translate
 from .subset import TranslationError
 
@@ -44,7 +45,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"{options.output} is no folder: name one with --output", file=sys.stderr)
         return 1
     for path, text in files.items():
-        path.write_text(text, encoding="utf-8", newline="\n")
+        write_whole(path, text)
         print(f"wrote {_shortest(path)}")
     return 0
 

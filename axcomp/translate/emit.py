@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from .checks import checks
 from .effects import Effects
 from .kinds import struct_field
 from .program import Constant, Definition, Function, Program, Struct
@@ -112,6 +113,11 @@ def _source(program: Program, effects: Effects, bodies: dict[str, list[str]], na
         writer.blank()
         writer.remark("As Python has them: the first of equals, and division rounded down.")
         writer.extend(helpers)
+    looked = checks(program, written)
+    if looked:
+        writer.blank()
+        writer.remark("Whether every Boolean is 0 or 1, and where records are sound every number finite.")
+        writer.extend(looked)
     for module in program.modules:
         hidden = [d for d in program.definitions if d.module is module and not _in_header(d)]
         constants = [definition for definition in hidden if isinstance(definition, Constant)]

@@ -300,6 +300,12 @@ class Expressions:
                 raise RefusedError(node, f"{name} of {one.kind} and {other.kind}: both are int, or both are float")
             family = "int" if one.kind is Scalar.INT else "double"
             return Text(f"{family}_{name}({one.c}, {other.c})", POSTFIX, one.kind)
+        if name in ("sound", "decided") and known:
+            (argument,) = self._arguments(node, 1)
+            kind = self.text(argument).kind
+            if not isinstance(kind, RecordType):
+                raise RefusedError(node, f"{name} is for records, not for {kind}")
+            return Text(f"{name}_{kind.name}({self._argument(argument, kind, name)})", POSTFIX, Scalar.BOOL)
         if name == "zeros" and known:
             raise RefusedError(node, "zeros(n) stands alone where a local array is first named")
         raise RefusedError(node, f"{name} is no function of the subset")

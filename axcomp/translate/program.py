@@ -19,7 +19,7 @@ _IMPORTABLE = {
     "dataclasses": {"dataclass"},
     "math": {"sqrt"},
     "typing": {"Annotated", "Final"},
-    RUN_TIME_MODULE: {"APART", "Vec", "whole", "zero", "zeros"},
+    RUN_TIME_MODULE: {"APART", "Vec", "decided", "sound", "whole", "zero", "zeros"},
 }
 _SCALARS = {"int": Scalar.INT, "float": Scalar.FLOAT, "bool": Scalar.BOOL}
 _INT_LIMIT = 2**31

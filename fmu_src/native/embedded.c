@@ -53,6 +53,32 @@ void axcomp_free_instance(Instance *instance)
     memset(instance, 0, sizeof *instance);
 }
 
+#if defined(AXCOMP_NUMBERS)
+/* Two for each instance: those in force, and those that come into force. */
+static Lists tuned[AXCOMP_INSTANCES][2];
+static AxisTable tuned_axes[AXCOMP_INSTANCES][2][AXCOMP_AXES];
+static double tuned_pools[AXCOMP_INSTANCES][2][AXCOMP_NUMBERS + 1];
+
+Lists *axcomp_copy_lists(Instance *instance)
+{
+    size_t i = (size_t)(instance - instances);
+    size_t k = instance->lists == &tuned[i][0] ? 1u : 0u;
+    Lists *lists = &tuned[i][k];
+    *lists = *instance->lists;
+    lists->tuned = true;
+    memcpy(tuned_axes[i][k], lists->tables.axis, (size_t)lists->tables.axis_count * sizeof(AxisTable));
+    memcpy(tuned_pools[i][k], lists->pool, (size_t)lists->numbers * sizeof(double));
+    lists->tables.axis = tuned_axes[i][k];
+    lists->pool = tuned_pools[i][k];
+    return lists;
+}
+
+void axcomp_drop_lists(Instance *instance, Lists *copy)
+{
+    (void)instance, (void)copy;
+}
+#endif
+
 void *axcomp_new_state(size_t size)
 {
     for (int k = 0; k < AXCOMP_STATES; k++) {
@@ -110,7 +136,14 @@ void axcomp_take_update(Instance *instance)
 
 const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
 {
-    return instance->first->identity == identity ? instance->first : NULL;
+    return instance->first->identity == identity ? instance->first
+        : instance->lists->identity == identity  ? instance->lists
+                                                 : NULL;
+}
+
+void axcomp_hold_lists(Instance *instance, uint32_t identity, int by)
+{
+    (void)instance, (void)identity, (void)by;
 }
 
 const Lists *axcomp_waiting_lists(const Instance *instance)

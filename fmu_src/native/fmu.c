@@ -54,8 +54,7 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
                                                      fmi2Boolean visible, fmi2Boolean logging)
 {
     (void)visible;
-    const char *known = name != NULL ? name : "";
-    Instance *instance = axcomp_new_instance(known);
+    Instance *instance = axcomp_new_instance(name != NULL ? name : "");
     if (instance == NULL) {
         return NULL;
     }
@@ -63,12 +62,19 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
         instance->callbacks = *callbacks;
     }
     axcomp_log_as_wanted(instance, logging != fmi2False, ~0u);
-
-    int usable = 0;
-    if (known[0] == 0) {
-        axcomp_say(instance, fmi2Error, "fmi2Instantiate: the instance has no name");
-    } else if (type != fmi2CoSimulation) {
+    if (type != fmi2CoSimulation) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: this is an FMU for co-simulation");
+        axcomp_free_instance(instance);
+        return NULL;
+    }
+    return axcomp_begin_instance(instance, name, guid, location);
+}
+
+Instance *axcomp_begin_instance(Instance *instance, const char *name, const char *guid, const char *location)
+{
+    int usable = 0;
+    if (name == NULL || name[0] == 0) {
+        axcomp_say(instance, fmi2Error, "fmi2Instantiate: the instance has no name");
     } else if (guid == NULL) {
         axcomp_say(instance, fmi2Error, "fmi2Instantiate: there is no guid");
     } else {

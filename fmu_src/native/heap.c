@@ -42,6 +42,43 @@ void axcomp_free_instance(Instance *instance)
     free(instance);
 }
 
+Lists *axcomp_copy_lists(Instance *instance)
+{
+    const Lists *from = instance->lists;
+    const Tables *tables = &from->tables;
+    size_t axes = (size_t)tables->axis_count, volumetrics = (size_t)tables->volumetrics, numbers = (size_t)from->numbers;
+    axcomp_forget_lists(instance);
+    Lists *lists = (Lists *)malloc(sizeof *lists);
+    if (lists == NULL) {
+        return NULL;
+    }
+    *lists = *from;
+    lists->tuned = true;
+    lists->saved = false;
+    lists->users = 0;
+    lists->held = 0;
+    double *pool = (double *)malloc((numbers + 1u) * sizeof *pool);
+    lists->pool = pool;
+    lists->tables.axis = (AxisTable *)malloc((axes + 1u) * sizeof(AxisTable));
+    lists->tables.volumetric = (VolumetricTable *)malloc((volumetrics + 1u) * sizeof(VolumetricTable));
+    if (pool == NULL || lists->tables.axis == NULL || lists->tables.volumetric == NULL) {
+        axcomp_free_lists(lists);
+        return NULL;
+    }
+    memcpy(pool, from->pool, numbers * sizeof *pool);
+    memcpy(lists->tables.axis, tables->axis, axes * sizeof(AxisTable));
+    memcpy(lists->tables.volumetric, tables->volumetric, volumetrics * sizeof(VolumetricTable));
+    lists->next = instance->own;
+    instance->own = lists;
+    return lists;
+}
+
+void axcomp_drop_lists(Instance *instance, Lists *copy)
+{
+    instance->own = copy->next;
+    axcomp_free_lists(copy);
+}
+
 void *axcomp_new_state(size_t size)
 {
     return calloc(1, size);

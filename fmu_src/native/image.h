@@ -28,11 +28,14 @@ typedef struct Lists {
     uint32_t identity;      /* equal for equal tables */
     char guid[GUID_LENGTH]; /* of the modelDescription.xml that belongs to them */
     bool real_only;         /* it calls Booleans and Integers Real */
+    bool tuned;             /* the host has changed numbers in them */
+    bool saved;             /* of such ones: a state refers to them */
 #if !defined(AXCOMP_EMBEDDED)
     uint32_t found;         /* errors in the lists these were made from: `reload` refuses them then */
     char said[SAID_LENGTH]; /* the first of them */
     int32_t errors[AXES];   /* of an axis that keeps its old tables when these are taken: why; else 0 */
     unsigned users;         /* instances that share them; 0: they belong to one */
+    unsigned held;          /* by so many states in memory */
     struct Lists *next;
 #endif
 } Lists;

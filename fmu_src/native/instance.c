@@ -1,14 +1,31 @@
 /* What an instance does between the calls of FMI: initial values, cycles, messages. */
 #include "instance.h"
 
+#include <fenv.h>
 #include <math.h>
 #include <string.h>
 
 #include "places.h"
 
-static const double CYCLES_AT_ONCE = 1e9;  /* a longer step is refused: it would seem to hang */
+static const double COUNTED_MAX = 9007199254740992.0;  /* cycles are counted exactly */
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
+
+int axcomp_round_to_nearest(void)
+{
+    int before = fegetround();
+    if (before != FE_TONEAREST) {
+        fesetround(FE_TONEAREST);
+    }
+    return before;
+}
+
+void axcomp_restore_rounding(int mode)
+{
+    if (mode != FE_TONEAREST && mode >= 0) {
+        fesetround(mode);
+    }
+}
 
 bool axcomp_cycle_time_fits(double cycle_time)
 {
@@ -50,9 +67,29 @@ void axcomp_begin_again(Instance *instance)
     memset(instance->told, 0, sizeof instance->told);
     memory->phase = INSTANTIATED;
     memory->controls.cycle_time = instance->first->tables.cycle_time;
+    memory->controls.largest_step = AXCOMP_LARGEST_STEP;
     memory->stop_time = HUGE_VAL;
     axcomp_use_lists(instance, instance->first);
     axcomp_wait_for(instance, NULL);
+}
+
+bool axcomp_memory_fits(const Lists *lists, const Memory *memory)
+{
+    const bool *const booleans[] = {&memory->controls.reload, &memory->reload_seen, &memory->refused, &memory->sloped};
+    for (size_t i = 0; i < sizeof booleans / sizeof booleans[0]; i++) {
+        if (*(const unsigned char *)booleans[i] > 1) {
+            return false;
+        }
+    }
+    int phase = 0;
+    memcpy(&phase, &memory->phase, sizeof memory->phase);
+    return (phase == INSTANTIATED || phase == INITIALIZATION || phase == STEPPING || phase == TERMINATED
+            || phase == EVENT)
+        && axcomp_cycle_time_fits(memory->controls.cycle_time) && memory->start_time - memory->start_time == 0.0
+        && memory->time - memory->time == 0.0 && memory->stop_time == memory->stop_time && memory->cycles >= 0.0
+        && memory->cycles <= COUNTED_MAX && axcomp_state_fits(&lists->tables, &memory->state)
+        && axcomp_given_fits(&lists->tables, &memory->inputs, &memory->outputs)
+        && axcomp_given_fits(&lists->tables, &memory->slopes, &memory->outputs);
 }
 
 void axcomp_preview_outputs(Instance *instance)
@@ -60,7 +97,24 @@ void axcomp_preview_outputs(Instance *instance)
     Memory *memory = &instance->memory;
     instance->tables.cycle_time = memory->controls.cycle_time;
     axcomp_copy_state(&instance->preview, &memory->state, &instance->shape);
+    int rounding = axcomp_round_to_nearest();
     axcomp_cycle(&instance->tables, instance->lists->pool, &instance->preview, &memory->inputs, &memory->outputs);
+    axcomp_restore_rounding(rounding);
+}
+
+bool axcomp_cycle_begins(const Instance *instance)
+{
+    const Memory *memory = &instance->memory;
+    double since = memory->time - memory->start_time, cycle_time = instance->tables.cycle_time;
+    return memory->cycles * cycle_time - since <= AXCOMP_ON_INSTANT * cycle_time;
+}
+
+void axcomp_refresh_outputs(Instance *instance)
+{
+    if (instance->stale && axcomp_cycle_begins(instance)) {
+        axcomp_preview_outputs(instance);
+    }
+    instance->stale = false;
 }
 
 /* Tell, once for an axis and a kind, that a compensation is used beyond its table, and of switches that are none. */
@@ -114,9 +168,12 @@ fmi2Status axcomp_advance(Instance *instance, double begin, double end)
 {
     Memory *memory = &instance->memory;
     double cycle_time = instance->tables.cycle_time;
+    int rounding = axcomp_round_to_nearest();
     double due = ceil((end - memory->start_time) / cycle_time - AXCOMP_ON_INSTANT);
-    if (!(due - memory->cycles <= CYCLES_AT_ONCE)) {
-        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of more than %g cycles is refused", CYCLES_AT_ONCE);
+    if (!(due - memory->cycles <= memory->controls.largest_step && due <= COUNTED_MAX)) {
+        axcomp_restore_rounding(rounding);
+        return axcomp_say(instance, fmi2Error, "fmi2DoStep: a step of %.0f cycles is refused; largest_step is %d",
+                          due - memory->cycles, (int)memory->controls.largest_step);
     }
     axcomp_take_update(instance);
     bool sloped = memory->sloped;
@@ -136,6 +193,7 @@ fmi2Status axcomp_advance(Instance *instance, double begin, double end)
         memory->sloped = false;
     }
     memory->time = end;
+    axcomp_restore_rounding(rounding);
     give_notices(instance);
     return fmi2OK;
 }

@@ -21,6 +21,821 @@ static inline int32_t int_max(int32_t a, int32_t b) { return b > a ? b : a; }
 static inline int32_t int_floor_div(int32_t a, int32_t b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
 static inline int32_t int_floor_mod(int32_t a, int32_t b) { return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0); }
 
+/* Whether every Boolean is 0 or 1, and where records are sound every number finite. */
+static bool sound_SwitchTable(const SwitchTable *record)
+{
+    if (!(*(const unsigned char *)&record->configured <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->manual <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->at_standstill <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_Argument(const Argument *record)
+{
+    if (!(record->start - record->start == 0.0)) {
+        return false;
+    }
+    if (!(record->period - record->period == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_Curve(const Curve *record)
+{
+    (void)record;
+    return true;
+}
+static bool sound_CrossTable(const CrossTable *record)
+{
+    if (!sound_Argument(&record->master)) {
+        return false;
+    }
+    if (!sound_Curve(&record->curve)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_PlaneTable(const PlaneTable *record)
+{
+    if (!sound_Argument(&record->master1)) {
+        return false;
+    }
+    if (!sound_Argument(&record->master2)) {
+        return false;
+    }
+    if (!(record->start1 - record->start1 == 0.0)) {
+        return false;
+    }
+    if (!(record->start2 - record->start2 == 0.0)) {
+        return false;
+    }
+    if (!(record->interval1 - record->interval1 == 0.0)) {
+        return false;
+    }
+    if (!(record->interval2 - record->interval2 == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_CrosstalkTable(const CrosstalkTable *record)
+{
+    if (!sound_Argument(&record->adaptation1)) {
+        return false;
+    }
+    if (!sound_Argument(&record->adaptation2)) {
+        return false;
+    }
+    if (!(record->acceleration - record->acceleration == 0.0)) {
+        return false;
+    }
+    if (!(record->deceleration - record->deceleration == 0.0)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->velocity_dependent <= 1)) {
+        return false;
+    }
+    if (!sound_Curve(&record->curve)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_TemperatureTable(const TemperatureTable *record)
+{
+    if (!(record->position - record->position == 0.0)) {
+        return false;
+    }
+    if (!(record->offset - record->offset == 0.0)) {
+        return false;
+    }
+    if (!(record->coefficient - record->coefficient == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_LeadscrewTable(const LeadscrewTable *record)
+{
+    if (!sound_Argument(&record->argument)) {
+        return false;
+    }
+    if (!sound_Curve(&record->positive)) {
+        return false;
+    }
+    if (!sound_Curve(&record->negative)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->bilateral <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->without_other <= 1)) {
+        return false;
+    }
+    if (!(record->modulo_range - record->modulo_range == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_BacklashTable(const BacklashTable *record)
+{
+    if (!(record->amount - record->amount == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_FrictionTable(const FrictionTable *record)
+{
+    if (!sound_Curve(&record->curve)) {
+        return false;
+    }
+    if (!(record->scaling - record->scaling == 0.0)) {
+        return false;
+    }
+    if (!(record->position_delay - record->position_delay == 0.0)) {
+        return false;
+    }
+    if (!(record->modulo_range - record->modulo_range == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_CompensationTables(const CompensationTables *record)
+{
+    if (!sound_CrossTable(&record->cross)) {
+        return false;
+    }
+    if (!sound_PlaneTable(&record->plane)) {
+        return false;
+    }
+    if (!sound_CrosstalkTable(&record->crosstalk)) {
+        return false;
+    }
+    if (!sound_TemperatureTable(&record->temperature)) {
+        return false;
+    }
+    if (!sound_LeadscrewTable(&record->leadscrew)) {
+        return false;
+    }
+    if (!sound_BacklashTable(&record->backlash)) {
+        return false;
+    }
+    if (!sound_FrictionTable(&record->friction)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_AxisTable(const AxisTable *record)
+{
+    if (!(record->modulo_range - record->modulo_range == 0.0)) {
+        return false;
+    }
+    for (int32_t i = 0; i < KINDS; i++) {
+        if (!sound_SwitchTable(&record->switching[i])) {
+            return false;
+        }
+    }
+    if (!sound_CompensationTables(&record->compensation)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_ErrorBlock(const ErrorBlock *record)
+{
+    for (int32_t i = 0; i < LETTERS; i++) {
+        if (!(record->start[i] - record->start[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LETTERS; i++) {
+        if (!(record->period[i] - record->period[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LETTERS; i++) {
+        if (!(record->steps_per_unit[i] - record->steps_per_unit[i] == 0.0)) {
+            return false;
+        }
+    }
+    return true;
+}
+static bool sound_VolumetricTable(const VolumetricTable *record)
+{
+    if (!(*(const unsigned char *)&record->configured <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->manual <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->associated <= 1)) {
+        return false;
+    }
+    for (int32_t i = 0; i < MEMBERS; i++) {
+        if (!(record->member_limit[i] - record->member_limit[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LETTERS; i++) {
+        if (!(record->offset[i] - record->offset[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LETTERS; i++) {
+        if (!(*(const unsigned char *)&record->exact[i] <= 1)) {
+            return false;
+        }
+    }
+    if (!(record->steepness - record->steepness == 0.0)) {
+        return false;
+    }
+    if (!(record->angular_steepness - record->angular_steepness == 0.0)) {
+        return false;
+    }
+    if (!(record->reach - record->reach == 0.0)) {
+        return false;
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->velocity[i] - record->velocity[i] == 0.0)) {
+            return false;
+        }
+    }
+    if (!(*(const unsigned char *)&record->alternative <= 1)) {
+        return false;
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->tool_position[i] - record->tool_position[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->tool_orientation[i] - record->tool_orientation[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < 9; i++) {
+        if (!(record->center[i] - record->center[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < 18; i++) {
+        if (!(record->direction[i] - record->direction[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->sign[i] - record->sign[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < ERRORS; i++) {
+        if (!sound_ErrorBlock(&record->block[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+static bool sound_Shift(const Shift *record)
+{
+    if (!(record->now - record->now == 0.0)) {
+        return false;
+    }
+    if (!(record->waiting - record->waiting == 0.0)) {
+        return false;
+    }
+    if (!(record->released - record->released == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_ShiftState(const ShiftState *record)
+{
+    if (!sound_Shift(&record->before)) {
+        return false;
+    }
+    if (!sound_Shift(&record->behind)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->pending <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_SwitchState(const SwitchState *record)
+{
+    if (!(*(const unsigned char *)&record->command <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->granted <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->no_move <= 1)) {
+        return false;
+    }
+    if (!(record->weight - record->weight == 0.0)) {
+        return false;
+    }
+    if (!(record->absorbed - record->absorbed == 0.0)) {
+        return false;
+    }
+    if (!(record->difference - record->difference == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_Lookup(const Lookup *record)
+{
+    (void)record;
+    return true;
+}
+static bool sound_CrossState(const CrossState *record)
+{
+    if (!sound_Lookup(&record->lookup)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_CrosstalkState(const CrosstalkState *record)
+{
+    if (!sound_Lookup(&record->lookup)) {
+        return false;
+    }
+    if (!sound_Lookup(&record->lookup2)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->outside <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_TemperatureState(const TemperatureState *record)
+{
+    if (!(record->offset - record->offset == 0.0)) {
+        return false;
+    }
+    if (!(record->coefficient - record->coefficient == 0.0)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_LeadscrewState(const LeadscrewState *record)
+{
+    if (!sound_Lookup(&record->lookup)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->started <= 1)) {
+        return false;
+    }
+    if (!(record->counted - record->counted == 0.0)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->backward <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_BacklashState(const BacklashState *record)
+{
+    (void)record;
+    return true;
+}
+static bool sound_FrictionState(const FrictionState *record)
+{
+    if (!sound_Lookup(&record->lookup)) {
+        return false;
+    }
+    if (!(record->reversal_position - record->reversal_position == 0.0)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->built_up <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->predicted <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_CompensationStates(const CompensationStates *record)
+{
+    if (!sound_CrossState(&record->cross)) {
+        return false;
+    }
+    if (!sound_CrosstalkState(&record->crosstalk)) {
+        return false;
+    }
+    if (!sound_TemperatureState(&record->temperature)) {
+        return false;
+    }
+    if (!sound_LeadscrewState(&record->leadscrew)) {
+        return false;
+    }
+    if (!sound_BacklashState(&record->backlash)) {
+        return false;
+    }
+    if (!sound_FrictionState(&record->friction)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_AxisState(const AxisState *record)
+{
+    if (!(*(const unsigned char *)&record->started <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->held <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->settled <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->unreferenced <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->released <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->stop_request <= 1)) {
+        return false;
+    }
+    if (!(record->added - record->added == 0.0)) {
+        return false;
+    }
+    if (!(record->volumetric_correction - record->volumetric_correction == 0.0)) {
+        return false;
+    }
+    if (!(record->volumetric_shift - record->volumetric_shift == 0.0)) {
+        return false;
+    }
+    if (!sound_ShiftState(&record->shift)) {
+        return false;
+    }
+    for (int32_t i = 0; i < KINDS; i++) {
+        if (!sound_SwitchState(&record->switching[i])) {
+            return false;
+        }
+    }
+    if (!sound_CompensationStates(&record->compensation)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_AxisMotion(const AxisMotion *record)
+{
+    if (!(record->setpoint - record->setpoint == 0.0)) {
+        return false;
+    }
+    if (!(record->velocity - record->velocity == 0.0)) {
+        return false;
+    }
+    if (!(record->acceleration - record->acceleration == 0.0)) {
+        return false;
+    }
+    if (!(record->counted - record->counted == 0.0)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->moving <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool sound_VolumetricState(const VolumetricState *record)
+{
+    if (!(*(const unsigned char *)&record->started <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->command <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->no_move <= 1)) {
+        return false;
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->wanted_factor[i] - record->wanted_factor[i] == 0.0)) {
+            return false;
+        }
+    }
+    if (!(*(const unsigned char *)&record->on <= 1)) {
+        return false;
+    }
+    if (!(record->progress - record->progress == 0.0)) {
+        return false;
+    }
+    if (!(record->weight - record->weight == 0.0)) {
+        return false;
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->factor[i] - record->factor[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(*(const unsigned char *)&record->taking_part[i] <= 1)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(*(const unsigned char *)&record->absorbed[i] <= 1)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(*(const unsigned char *)&record->waiting[i] <= 1)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->value[i] - record->value[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->contribution[i] - record->contribution[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->shift[i] - record->shift[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->held_shift[i] - record->held_shift[i] == 0.0)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->release[i] - record->release[i] == 0.0)) {
+            return false;
+        }
+    }
+    if (!(record->tool_length - record->tool_length == 0.0)) {
+        return false;
+    }
+    if (!(record->old_tool_length - record->old_tool_length == 0.0)) {
+        return false;
+    }
+    if (!(record->new_tool_length - record->new_tool_length == 0.0)) {
+        return false;
+    }
+    if (!(record->tool_progress - record->tool_progress == 0.0)) {
+        return false;
+    }
+    for (int32_t i = 0; i < LINEAR; i++) {
+        if (!(record->tool_change[i] - record->tool_change[i] == 0.0)) {
+            return false;
+        }
+    }
+    return true;
+}
+static bool decided_Inputs(const Inputs *record)
+{
+    if (!(*(const unsigned char *)&record->reset <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->program_end <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->derive_motion <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool decided_TemperatureInputs(const TemperatureInputs *record)
+{
+    (void)record;
+    return true;
+}
+static bool decided_FrictionInputs(const FrictionInputs *record)
+{
+    if (!(*(const unsigned char *)&record->ahead_known <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool decided_CompensationInputs(const CompensationInputs *record)
+{
+    if (!decided_TemperatureInputs(&record->temperature)) {
+        return false;
+    }
+    if (!decided_FrictionInputs(&record->friction)) {
+        return false;
+    }
+    return true;
+}
+static bool decided_AxisInputs(const AxisInputs *record)
+{
+    if (!(*(const unsigned char *)&record->unreferenced <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->fault <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->no_move <= 1)) {
+        return false;
+    }
+    if (!(*(const unsigned char *)&record->released <= 1)) {
+        return false;
+    }
+    if (!decided_CompensationInputs(&record->compensation)) {
+        return false;
+    }
+    return true;
+}
+static bool decided_AxisOutputs(const AxisOutputs *record)
+{
+    for (int32_t i = 0; i < KINDS; i++) {
+        if (!(*(const unsigned char *)&record->active[i] <= 1)) {
+            return false;
+        }
+    }
+    if (!(*(const unsigned char *)&record->stop_request <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool decided_VolumetricInputs(const VolumetricInputs *record)
+{
+    if (!(*(const unsigned char *)&record->no_move <= 1)) {
+        return false;
+    }
+    return true;
+}
+static bool decided_VolumetricOutputs(const VolumetricOutputs *record)
+{
+    if (!(*(const unsigned char *)&record->active <= 1)) {
+        return false;
+    }
+    return true;
+}
+
+/* ============================== interpolation ===============================
+ *
+ * Piecewise linear curves: the last interval, its neighbours, then a guess from the way gone: many points cost few.
+ */
+
+/* Return the interval of x, which is not the `last` one: a neighbour, or near a guess by the mean interval.
+ *
+ * From a guess that is wrong the search goes out in steps that double, then bisects the last of them: at most
+ * 2 · log2(points) comparisons.
+ */
+static int32_t search_interval(const double *pool, int32_t first, int32_t points, double x, int32_t last)
+{
+    int32_t end = points - 1;
+    if (x >= pool[first + last]) {
+        if (last + 2 >= points || x < pool[first + last + 2]) {
+            return int_min(last + 1, end - 1);
+        }
+    } else if (x >= pool[first + last - 1]) {
+        return last - 1;
+    } else {
+        /* nothing */
+    }
+    double intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end;
+    int32_t low = int_min(int_max(last + (int32_t)intervals, 0), end - 1);
+    int32_t high = low + 1;
+    int32_t step = 1;
+    if (x < pool[first + low]) {
+        //@ loop unroll 32;
+        while (low > 0 && x < pool[first + low]) {  /* at most 32 times */
+            high = low;
+            low = int_max(high - step, 0);
+            step = int_min(step + step, end);
+        }
+    } else {
+        //@ loop unroll 32;
+        while (high < end && x >= pool[first + high]) {  /* at most 32 times */
+            low = high;
+            high = int_min(low + step, end);
+            step = int_min(step + step, end);
+        }
+    }
+    //@ loop unroll 32;
+    while (high - low > 1) {  /* at most 32 times */
+        int32_t middle = (low + high) >> 1;
+        if (x < pool[first + middle]) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return low;
+}
+
+/* Return i with x[i] ≤ x < x[i + 1], for x within the abscissae pool[first …] and points ≥ 2. */
+static int32_t find_interval(const double *pool, int32_t first, int32_t points, double x, Lookup *lookup)
+{
+    int32_t i = lookup->interval;
+    if (pool[first + i] <= x && x < pool[first + i + 1]) {
+        return i;
+    }
+    lookup->interval = search_interval(pool, first, points, x, i);
+    return lookup->interval;
+}
+
+/* Return y(x) on the straight line through points i and i + 1. */
+static double section_value(const double *pool, const Curve *curve, int32_t i, double x)
+{
+    double x0 = pool[curve->x + i];
+    double y0 = pool[curve->y + i];
+    return y0 + (x - x0) / (pool[curve->x + i + 1] - x0) * (pool[curve->y + i + 1] - y0);
+}
+
+/* Return y(x): linear between the points, the end values held outside; what is no number counts as the lowest x. */
+static double curve_value(const double *pool, const Curve *curve, double x, Lookup *lookup)
+{
+    int32_t i = lookup->interval;
+    if (i + 1 < curve->points && pool[curve->x + i] < x && x < pool[curve->x + i + 1]) {
+        return section_value(pool, curve, i, x);
+    }
+    if (!(x > pool[curve->x])) {
+        return pool[curve->y];
+    }
+    int32_t last = curve->points - 1;
+    if (x >= pool[curve->x + last]) {
+        return pool[curve->y + last];
+    }
+    i = find_interval(pool, curve->x, curve->points, x, lookup);
+    return section_value(pool, curve, i, x);
+}
+
+/* Return x moved by whole lengths into [start, start + length). */
+static double fold(double x, double start, double length)
+{
+    double folded = x - length * whole((x - start) / length);
+    return folded < start + length ? folded : start;
+}
+
+/* Return x held between two bounds; what is no number is the lower one. */
+static double within(double x, double low, double high)
+{
+    if (!(x >= low)) {
+        return low;
+    }
+    return double_min(x, high);
+}
+
+/* Return a change moved by whole lengths into [−length/2, length/2): the short way round. Length 0: unchanged. */
+static double nearest(double change, double length)
+{
+    if (length > 0.0) {
+        return change - length * whole(change / length + 0.5);
+    }
+    return change;
+}
+
+/* Tell whether so many numbers from `first` on lie in the pool. */
+static bool range_fits(int32_t first, int32_t count, int32_t numbers)
+{
+    return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
+}
+
+/* Tell whether so many numbers lie in the pool, ascend strictly and span a finite length. */
+static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers)
+{
+    if (!range_fits(first, points, numbers)) {
+        return false;
+    }
+    for (int32_t k = 0; k < points - 1; k++) {
+        if (!(pool[first + k] < pool[first + k + 1])) {
+            return false;
+        }
+    }
+    double length = pool[first + points - 1] - pool[first];
+    return length - length == 0.0;  /* finite */
+}
+
+/* Tell whether a curve lies in the pool and its abscissae ascend. */
+static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
+{
+    return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
+}
+
+/* Tell whether a search may go on from where it ended, in so many points. */
+static bool lookup_fits(const Lookup *lookup, int32_t points)
+{
+    return lookup->interval == 0 || (0 < lookup->interval && lookup->interval < points - 1);
+}
+
+/* Tell whether positions can repeat after so many mm or °; 0: they do not. */
+static bool period_fits(double period)
+{
+    return period == 0.0 || (SHORTEST_PERIOD <= period && period < LARGEST);
+}
+
+/* Follow the numbers of a curve to another place in the pool. */
+static void move_curve(Curve *curve, int32_t by)
+{
+    curve->x += by;
+    curve->y += by;
+}
+
+/* Start the next search from the front: a new table may be shorter. */
+static void forget(Lookup *lookup)
+{
+    lookup->interval = 0;
+}
+
 /* =============================== trigonometry ===============================
  *
  * Sine and cosine that give the same bits everywhere: the C libraries' own differ in the last place.
@@ -49,10 +864,13 @@ static double cosine_polynomial(double r)
     return w + (1.0 - w - h + z * z * p);
 }
 
-/* Return sin(x + quarter · π/2) for |x| < 10⁵ rad. */
+/* Return sin(x + quarter · π/2) for |x| < 10⁵ rad; of anything else, which no table leads to, some number. */
 static double sine_of_quarter(double x, int32_t quarter)
 {
-    double turns = whole(x * TWO_OVER_PI + 0.5);
+    double turns = 0.0;
+    if (-LARGEST_ANGLE < x && x < LARGEST_ANGLE) {
+        turns = whole(x * TWO_OVER_PI + 0.5);
+    }
     double r = x - turns * HALF_PI_HEAD;
     r = r - turns * HALF_PI_MIDDLE;
     r = r - turns * HALF_PI_TAIL;
@@ -277,6 +1095,17 @@ static bool switch_fits(const SwitchTable *table, int32_t axes)
     return true;
 }
 
+/* Tell whether the state belongs to such a switch; without a table nothing acts, but a blend may run out. */
+static bool switch_state_fits(const SwitchTable *table, const SwitchState *state)
+{
+    if (!(0 <= state->step && state->step <= table->cycles
+            && 0 <= state->blend_step && state->blend_step <= table->blend_cycles)) {
+        return false;
+    }
+    return 0.0 <= state->weight && state->weight <= 1.0
+            && (table->configured || (state->step == 0 && state->weight == 0.0));
+}
+
 /* ================================= backlash =================================
  *
  * Backlash compensation (lr_param.anwahl_losekomp, getriebe[i].lose): the drive goes further after a reversal. Added.
@@ -316,153 +1145,13 @@ static void adopt_backlash(const BacklashTable *before, const BacklashTable *aft
 /* Tell whether the table can be used. */
 static bool backlash_fits(const BacklashTable *table)
 {
-    return 1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX && table->amount - table->amount == 0.0;
+    return 1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX && fabs(table->amount) < LARGEST;
 }
 
-/* ============================== interpolation ===============================
- *
- * Piecewise linear curves: the last interval, its neighbours, then a guess from the way gone: many points cost few.
- */
-
-/* Return the interval of x, which is not the `last` one: a neighbour, or near a guess by the mean interval.
- *
- * From a guess that is wrong the search goes out in steps that double, then bisects the last of them: at most
- * 2 · log2(points) comparisons.
- */
-static int32_t search_interval(const double *pool, int32_t first, int32_t points, double x, int32_t last)
+/* Tell whether the state belongs to such a table. */
+static bool backlash_state_fits(const BacklashTable *table, const BacklashState *state)
 {
-    int32_t end = points - 1;
-    if (x >= pool[first + last]) {
-        if (last + 2 >= points || x < pool[first + last + 2]) {
-            return int_min(last + 1, end - 1);
-        }
-    } else if (x >= pool[first + last - 1]) {
-        return last - 1;
-    } else {
-        /* nothing */
-    }
-    double intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end;
-    int32_t low = int_min(int_max(last + (int32_t)intervals, 0), end - 1);
-    int32_t high = low + 1;
-    int32_t step = 1;
-    if (x < pool[first + low]) {
-        //@ loop unroll 32;
-        while (low > 0 && x < pool[first + low]) {  /* at most 32 times */
-            high = low;
-            low = int_max(high - step, 0);
-            step = int_min(step + step, end);
-        }
-    } else {
-        //@ loop unroll 32;
-        while (high < end && x >= pool[first + high]) {  /* at most 32 times */
-            low = high;
-            high = int_min(low + step, end);
-            step = int_min(step + step, end);
-        }
-    }
-    //@ loop unroll 32;
-    while (high - low > 1) {  /* at most 32 times */
-        int32_t middle = (low + high) >> 1;
-        if (x < pool[first + middle]) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    return low;
-}
-
-/* Return i with x[i] ≤ x < x[i + 1], for x within the abscissae pool[first …] and points ≥ 2. */
-static int32_t find_interval(const double *pool, int32_t first, int32_t points, double x, Lookup *lookup)
-{
-    int32_t i = lookup->interval;
-    if (pool[first + i] <= x && x < pool[first + i + 1]) {
-        return i;
-    }
-    lookup->interval = search_interval(pool, first, points, x, i);
-    return lookup->interval;
-}
-
-/* Return y(x) on the straight line through points i and i + 1. */
-static double section_value(const double *pool, const Curve *curve, int32_t i, double x)
-{
-    double x0 = pool[curve->x + i];
-    double y0 = pool[curve->y + i];
-    return y0 + (x - x0) / (pool[curve->x + i + 1] - x0) * (pool[curve->y + i + 1] - y0);
-}
-
-/* Return y(x): linear between the points, the end values held outside. */
-static double curve_value(const double *pool, const Curve *curve, double x, Lookup *lookup)
-{
-    int32_t i = lookup->interval;
-    if (i + 1 < curve->points && pool[curve->x + i] < x && x < pool[curve->x + i + 1]) {
-        return section_value(pool, curve, i, x);
-    }
-    if (x <= pool[curve->x]) {
-        return pool[curve->y];
-    }
-    int32_t last = curve->points - 1;
-    if (x >= pool[curve->x + last]) {
-        return pool[curve->y + last];
-    }
-    i = find_interval(pool, curve->x, curve->points, x, lookup);
-    return section_value(pool, curve, i, x);
-}
-
-/* Return x moved by whole lengths into [start, start + length). */
-static double fold(double x, double start, double length)
-{
-    double folded = x - length * whole((x - start) / length);
-    return folded < start + length ? folded : start;
-}
-
-/* Return a change moved by whole lengths into [−length/2, length/2): the short way round. Length 0: unchanged. */
-static double nearest(double change, double length)
-{
-    if (length > 0.0) {
-        return change - length * whole(change / length + 0.5);
-    }
-    return change;
-}
-
-/* Tell whether so many numbers from `first` on lie in the pool. */
-static bool range_fits(int32_t first, int32_t count, int32_t numbers)
-{
-    return first >= 0 && 0 < count && count <= numbers && first <= numbers - count;
-}
-
-/* Tell whether so many numbers lie in the pool, ascend strictly and span a finite length. */
-static bool ascending(const double *pool, int32_t first, int32_t points, int32_t numbers)
-{
-    if (!range_fits(first, points, numbers)) {
-        return false;
-    }
-    for (int32_t k = 0; k < points - 1; k++) {
-        if (!(pool[first + k] < pool[first + k + 1])) {
-            return false;
-        }
-    }
-    double length = pool[first + points - 1] - pool[first];
-    return length - length == 0.0;  /* finite */
-}
-
-/* Tell whether a curve lies in the pool and its abscissae ascend. */
-static bool curve_fits(const double *pool, const Curve *curve, int32_t numbers)
-{
-    return ascending(pool, curve->x, curve->points, numbers) && range_fits(curve->y, curve->points, numbers);
-}
-
-/* Follow the numbers of a curve to another place in the pool. */
-static void move_curve(Curve *curve, int32_t by)
-{
-    curve->x += by;
-    curve->y += by;
-}
-
-/* Start the next search from the front: a new table may be shorter. */
-static void forget(Lookup *lookup)
-{
-    lookup->interval = 0;
+    return 0 <= state->step && state->step <= table->reversal_cycles;
 }
 
 /* ================================== motion ==================================
@@ -527,10 +1216,14 @@ static double position_of(const Motion *motion, const Argument *argument)
 /* Tell whether an argument means an axis and a turn. */
 static bool argument_fits(const Argument *argument, int32_t axes)
 {
-    if (argument->start - argument->start != 0.0 || argument->period - argument->period != 0.0) {  /* not finite */
-        return false;
-    }
-    return 0 <= argument->axis && argument->axis < axes && argument->period >= 0.0;
+    return 0 <= argument->axis && argument->axis < axes && fabs(argument->start) < LARGEST
+            && period_fits(argument->period);
+}
+
+/* Tell whether the state of a motion can be gone on from. */
+static bool motion_fits(const AxisMotion *motion)
+{
+    return -1 <= motion->sign && motion->sign <= 1 && -1 <= motion->direction && motion->direction <= 1;
 }
 
 /* ================================== cross ===================================
@@ -562,6 +1255,12 @@ static bool cross_fits(const double *pool, const CrossTable *table, int32_t axes
     return argument_fits(&table->master, axes) && curve_fits(pool, &table->curve, numbers);
 }
 
+/* Tell whether the state belongs to such a table. */
+static bool cross_state_fits(const CrossTable *table, const CrossState *state)
+{
+    return lookup_fits(&state->lookup, table->curve.points);
+}
+
 /* ================================ crosstalk =================================
  *
  * Crosstalk compensation (kw.crosstalk): the slave is corrected while the master accelerates. Added.
@@ -575,7 +1274,7 @@ static bool cross_fits(const double *pool, const CrossTable *table, int32_t axes
 static double line_value(const double *pool, int32_t abscissae, int32_t values, int32_t points, double x,
         Lookup *lookup)
 {
-    x = double_min(double_max(x, pool[abscissae]), pool[abscissae + points - 1]);
+    x = within(x, pool[abscissae], pool[abscissae + points - 1]);
     int32_t i = find_interval(pool, abscissae, points, x, lookup);
     double x0 = pool[abscissae + i];
     double s = (x - x0) / (pool[abscissae + i + 1] - x0);
@@ -596,7 +1295,7 @@ static double grid_value(const double *pool, const CrosstalkTable *table, Crosst
         double x1, double x2)
 {
     state->outside = state->outside || outside_grid(pool, table, x1, x2);
-    x2 = double_min(double_max(x2, pool[table->x2]), pool[table->x2 + table->points2 - 1]);
+    x2 = within(x2, pool[table->x2], pool[table->x2 + table->points2 - 1]);
     int32_t j = find_interval(pool, table->x2, table->points2, x2, &state->lookup2);
     int32_t row = values + j * table->points1;
     double near = line_value(pool, table->x1, row, table->points1, x1, &state->lookup);
@@ -787,6 +1486,21 @@ static bool crosstalk_fits(const double *pool, const CrosstalkTable *table, int3
     return table->variant != CROSSTALK_TRIANGLES || triangles_fit(pool, table, numbers);
 }
 
+/* Tell whether the state belongs to such a table. */
+static bool crosstalk_state_fits(const CrosstalkTable *table, const CrosstalkState *state)
+{
+    if (table->variant == CROSSTALK_CURVE) {
+        return lookup_fits(&state->lookup, table->curve.points);
+    }
+    if (table->variant == CROSSTALK_LINE) {
+        return lookup_fits(&state->lookup, table->tests);
+    }
+    if (table->variant == CROSSTALK_GRID) {
+        return lookup_fits(&state->lookup, table->points1) && lookup_fits(&state->lookup2, table->points2);
+    }
+    return true;
+}
+
 /* ================================= friction =================================
  *
  * Friction compensation (frict_comp): an additional motor current over the setpoint velocity v.
@@ -926,11 +1640,28 @@ static void move_friction(FrictionTable *table, int32_t by)
 /* Tell whether the table can be used. */
 static bool friction_fits(const double *pool, const FrictionTable *table, int32_t numbers)
 {
-    if (!(curve_fits(pool, &table->curve, numbers) && table->modulo_range >= 0.0)) {
+    if (!(curve_fits(pool, &table->curve, numbers) && period_fits(table->modulo_range))) {
         return false;
     }
-    return 0 <= table->delay && table->delay < DELAY_LINE && 0 <= table->lookahead && table->lookahead <= LOOKAHEAD_MAX
-            && table->position_delay >= 0.0;
+    if (!(fabs(table->scaling) < LARGEST && 0.0 <= table->position_delay && table->position_delay < LARGEST)) {
+        return false;
+    }
+    return 0 <= table->delay && table->delay < DELAY_LINE && 0 <= table->lookahead && table->lookahead <= LOOKAHEAD_MAX;
+}
+
+/* Tell whether the state belongs to such a table. */
+static bool friction_state_fits(const FrictionTable *table, const FrictionState *state)
+{
+    if (!(-1 <= state->direction && state->direction <= 1
+            && 0 <= state->since_reversal && state->since_reversal <= table->lookahead)) {
+        return false;
+    }
+    for (int32_t k = 0; k < table->delay + 1; k++) {
+        if (state->line[k] - state->line[k] != 0.0) {
+            return false;
+        }
+    }
+    return 0 <= state->head && state->head <= table->delay && lookup_fits(&state->lookup, table->curve.points);
 }
 
 /* ================================ leadscrew =================================
@@ -1023,7 +1754,7 @@ static void move_leadscrew(LeadscrewTable *table, int32_t by)
 /* Tell whether the table can be used. */
 static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int32_t axes, int32_t numbers)
 {
-    if (!(1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX && table->modulo_range >= 0.0)) {
+    if (!(1 <= table->reversal_cycles && table->reversal_cycles <= CYCLES_MAX && period_fits(table->modulo_range))) {
         return false;
     }
     if (!(argument_fits(&table->argument, axes) && curve_fits(pool, &table->positive, numbers))) {
@@ -1031,6 +1762,13 @@ static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int3
     }
     return !table->bilateral
             || (table->negative.points == table->positive.points && curve_fits(pool, &table->negative, numbers));
+}
+
+/* Tell whether the state belongs to such a table; both directions have the same points. */
+static bool leadscrew_state_fits(const LeadscrewTable *table, const LeadscrewState *state)
+{
+    return lookup_fits(&state->lookup, table->positive.points)
+            && 0 <= state->reversal_step && state->reversal_step <= table->reversal_cycles;
 }
 
 /* ================================== plane ===================================
@@ -1042,7 +1780,7 @@ static bool leadscrew_fits(const double *pool, const LeadscrewTable *table, int3
 static double grid_coordinate(double x, double start, double interval, int32_t points)
 {
     double u = (x - start) / interval;
-    if (u <= 0.0) {
+    if (!(u > 0.0)) {
         return 0.0;
     }
     return double_min(u, points - 1.0);
@@ -1087,8 +1825,7 @@ static bool plane_fits(const PlaneTable *table, int32_t axes, int32_t numbers)
     if (!(table->interval1 > 0.0 && table->interval2 > 0.0 && table->points1 > 0 && table->points2 > 0)) {
         return false;
     }
-    /* A start that is not finite would make a cell any number. */
-    if (table->start1 - table->start1 != 0.0 || table->start2 - table->start2 != 0.0) {
+    if (!(fabs(table->start1) < LARGEST && fabs(table->start2) < LARGEST)) {
         return false;
     }
     if (table->points1 > int_floor_div(numbers, table->points2)) {
@@ -1120,7 +1857,7 @@ static double take_temperature(const TemperatureTable *table, TemperatureState *
     if (offset == state->offset && coefficient == state->coefficient) {
         return 0.0;
     }
-    if (offset - offset != 0.0 || coefficient - coefficient != 0.0) {
+    if (!(fabs(offset) < LARGEST && fabs(coefficient) < LARGEST)) {
         return 0.0;
     }
     double before = temperature_value(table, state, position);
@@ -1129,11 +1866,10 @@ static double take_temperature(const TemperatureTable *table, TemperatureState *
     return before - temperature_value(table, state, position);
 }
 
-/* Tell whether the table can be used: its numbers are finite. */
+/* Tell whether the table can be used: sums with its numbers do not overflow. */
 static bool temperature_fits(const TemperatureTable *table)
 {
-    return table->position - table->position == 0.0 && table->offset - table->offset == 0.0
-            && table->coefficient - table->coefficient == 0.0;
+    return fabs(table->position) < LARGEST && fabs(table->offset) < LARGEST && fabs(table->coefficient) < LARGEST;
 }
 
 /* ============================== compensations ===============================
@@ -1290,6 +2026,36 @@ static bool compensation_fits(int32_t kind, const double *pool, const Compensati
     return friction_fits(pool, &tables->friction, numbers);
 }
 
+/* Tell whether a kind without a table has no lengths either: an update goes by them. */
+static bool compensation_absent(int32_t kind, const CompensationTables *tables)
+{
+    if (kind == LEADSCREW) {
+        return tables->leadscrew.reversal_cycles == 0;
+    }
+    if (kind == BACKLASH) {
+        return tables->backlash.reversal_cycles == 0;
+    }
+    return kind != FRICTION || (tables->friction.curve.points == 0 && tables->friction.lookahead == 0);
+}
+
+/* Tell whether the state of a kind belongs to its table: every index means something in it. */
+static bool compensation_state_fits(int32_t kind, const CompensationTables *tables, const CompensationStates *states)
+{
+    if (kind == CROSS) {
+        return cross_state_fits(&tables->cross, &states->cross);
+    }
+    if (kind == CROSSTALK) {
+        return crosstalk_state_fits(&tables->crosstalk, &states->crosstalk);
+    }
+    if (kind == LEADSCREW) {
+        return leadscrew_state_fits(&tables->leadscrew, &states->leadscrew);
+    }
+    if (kind == BACKLASH) {
+        return backlash_state_fits(&tables->backlash, &states->backlash);
+    }
+    return kind != FRICTION || friction_state_fits(&tables->friction, &states->friction);
+}
+
 /* ================================== shift ===================================
  *
  * NO_MOVE: what a compensation gains or loses when it is switched stays in the setpoint as a shift.
@@ -1340,6 +2106,12 @@ static void absorb_switch(ShiftState *state, bool is_before, double gain)
             absorb(&state->behind, gain);
         }
     }
+}
+
+/* Tell whether the state belongs to releases of so many cycles. */
+static bool shift_state_fits(int32_t cycles, const ShiftState *state)
+{
+    return 0 <= state->step && state->step <= cycles;
 }
 
 /* Go on with a release of another length from where it stands. */
@@ -1465,7 +2237,7 @@ static int32_t find_cell(const double *pool, const ErrorBlock *block, int32_t d,
 static void add_from_line(const double *pool, const ErrorBlock *block, double x, double errors[ERRORS])
 {
     int32_t first = block->knots[0];
-    double u = double_min(double_max(x, pool[first]), pool[first + block->points[0] - 1]);
+    double u = within(x, pool[first], pool[first + block->points[0] - 1]);
     int32_t i = find_cell(pool, block, 0, u);
     double share = (u - pool[first + i]) / (pool[first + i + 1] - pool[first + i]);
     int32_t near = block->values + i * block->errors;
@@ -1495,7 +2267,7 @@ static void add_from_grid(const double *pool, const ErrorBlock *block, const dou
         int32_t first = block->knots[argument];
         int32_t last = block->points[argument] - 1;
         if (last > 0) {
-            double u = double_min(double_max(x[argument], pool[first]), pool[first + last]);
+            double u = within(x[argument], pool[first], pool[first + last]);
             int32_t i = find_cell(pool, block, argument, u);
             share[argument] = (u - pool[first + i]) / (pool[first + i + 1] - pool[first + i]);
             stride[argument] = (double)step;
@@ -2874,31 +3646,35 @@ static bool members_fit(const VolumetricTable *table, int32_t axes)
         if (!(0 <= table->axis[d] && table->axis[d] < axes)) {
             return false;
         }
-        if (table->offset[d] - table->offset[d] != 0.0) {  /* not finite: no interpolation knows where the axis is */
+        if (!(fabs(table->offset[d]) < LARGEST)) {
             return false;
         }
     }
     return true;
 }
 
-/* Tell whether the kinematic chain has letters only. */
+/* Tell whether the kinematic chain is X, Y, Z and some of A, B, C, each once, and the columns those of X, Y, Z. */
 static bool chain_fits(const VolumetricTable *table)
 {
     if (!(LINEAR <= table->chain_length && table->chain_length <= LETTERS
             && 0 <= table->workpiece_axes && table->workpiece_axes <= table->chain_length)) {
         return false;
     }
+    int32_t letters = 0;
     for (int32_t k = 0; k < table->chain_length; k++) {
-        if (!(0 <= table->chain[k] && table->chain[k] < LETTERS)) {
+        if (!(0 <= table->chain[k] && table->chain[k] < LETTERS) || ((letters >> table->chain[k]) & 1) == 1) {
             return false;
         }
+        letters += 1 << table->chain[k];
     }
+    int32_t columns = 0;
     for (int32_t d = 0; d < LINEAR; d++) {
         if (!(0 <= table->column[d] && table->column[d] < LINEAR)) {
             return false;
         }
+        columns += 1 << table->column[d];
     }
-    return true;
+    return (letters & ALL_LINEAR) == ALL_LINEAR && columns == ALL_LINEAR;
 }
 
 /* Tell whether the boxes around the sections of a path lie in the pool, and hold all sections. */
@@ -2912,6 +3688,16 @@ static bool boxes_fit(const ErrorBlock *block, int32_t numbers)
         return false;
     }
     return range_fits(block->steps[0], 4 * block->arguments * leaves, numbers);
+}
+
+/* Tell whether an error can be as large: a length that can be added to a position, an angle that can be reduced. */
+static bool error_fits(int32_t number, double value)
+{
+    int32_t place = int_floor_mod(number, ERRORS_OF_AXIS);
+    if ((A0 <= place && place < EX) || place >= EA) {
+        return fabs(value) <= ANGLE_LARGEST;
+    }
+    return fabs(value) < LARGEST;
 }
 
 /* Tell whether so many numbers of the pool are at least 0 and below a limit. */
@@ -2933,7 +3719,11 @@ static bool steps_fit(const double *pool, const ErrorBlock *block, int32_t d, in
         return false;
     }
     double length = pool[block->knots[d] + points - 1] - pool[block->knots[d]];
-    return block->steps_per_unit[d] >= 0.0 && length * block->steps_per_unit[d] < points;
+    if (!(block->steps_per_unit[d] >= 0.0 && length * block->steps_per_unit[d] < points)) {
+        return false;
+    }
+    /* The last cell begins a knot before the last one. */
+    return counts(pool, block->steps[d], (int32_t)(length * block->steps_per_unit[d]) + 1, points - 1);
 }
 
 /* Tell whether the knots along each argument ascend, and make the nodes. */
@@ -2970,11 +3760,16 @@ static bool block_fits(const double *pool, const ErrorBlock *block, int32_t numb
     if (!range_fits(block->values, block->nodes * block->errors, numbers)) {
         return false;
     }
-    for (int32_t d = 0; d < block->arguments; d++) {
-        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS) || !(block->period[d] >= 0.0)) {
-            return false;
+    for (int32_t p = 0; p < block->errors; p++) {
+        for (int32_t n = 0; n < block->nodes; n++) {
+            if (!error_fits((int32_t)pool[block->error + p], pool[block->values + n * block->errors + p])) {
+                return false;
+            }
         }
-        if (block->start[d] - block->start[d] != 0.0 || block->period[d] - block->period[d] != 0.0) {  /* not finite */
+    }
+    for (int32_t d = 0; d < block->arguments; d++) {
+        if (!(0 <= block->argument[d] && block->argument[d] < LETTERS && fabs(block->start[d]) < LARGEST
+                && period_fits(block->period[d]))) {
             return false;
         }
     }
@@ -3003,12 +3798,22 @@ static bool volumetric_fits(const double *pool, const VolumetricTable *table, in
     if (table->cycles < 1 || !members_fit(table, axes) || !chain_fits(table)) {
         return false;
     }
+    for (int32_t d = 0; d < LINEAR; d++) {
+        if (!(table->velocity[d] >= 0.0 && fabs(table->tool_position[d]) < LARGEST)) {
+            return false;
+        }
+    }
     if (table->constants > 0) {
         if (table->constants > ERRORS || !range_fits(table->constant, 2 * table->constants, numbers)) {
             return false;
         }
         if (!counts(pool, table->constant, table->constants, ERRORS)) {
             return false;
+        }
+        for (int32_t k = 0; k < table->constants; k++) {
+            if (!error_fits((int32_t)pool[table->constant + k], pool[table->constant + table->constants + k])) {
+                return false;
+            }
         }
     }
     if (!(0 <= table->blocks && table->blocks <= ERRORS)) {
@@ -3022,17 +3827,30 @@ static bool volumetric_fits(const double *pool, const VolumetricTable *table, in
     return true;
 }
 
+/* Tell whether the state belongs to such a compensation: the sections of its paths are there. */
+static bool volumetric_state_fits(const VolumetricTable *table, const VolumetricState *state)
+{
+    for (int32_t b = 0; b < ERRORS; b++) {
+        if (state->section[b] < 0 || (b < table->blocks && state->section[b] > table->block[b].nodes)) {
+            return false;
+        }
+    }
+    return 0.0 <= state->progress && state->progress <= 1.0
+            && 0.0 <= state->tool_progress && state->tool_progress <= 1.0;
+}
+
 /* =================================== fit ====================================
  *
- * Whether tables can be trusted: every offset lies in the pool, every index means an axis, every divisor is not 0.
+ * Whether tables and states can be trusted: every offset lies in the pool, every index means an axis or a point.
  *
- * The table compiler makes only such tables; tables that come from a file are looked at before they are used.
+ * The table compiler makes only such tables, the kernel only such states; those that come from a file are looked at before
+ * they are used. Whatever passes leads no cycle out of its memory, and no number to a conversion that it cannot bear.
  */
 
 /* Tell whether the tables of one axis can be used; what is not configured is not looked at. */
 static bool axis_fits(const AxisTable *table, const double *pool, int32_t axes, int32_t numbers)
 {
-    if (!(table->modulo_range >= 0.0) || !(1 <= table->shift_cycles && table->shift_cycles <= CYCLES_MAX)) {
+    if (!period_fits(table->modulo_range) || !(1 <= table->shift_cycles && table->shift_cycles <= CYCLES_MAX)) {
         return false;
     }
     if (!(0 <= table->first && table->first <= numbers
@@ -3047,18 +3865,22 @@ static bool axis_fits(const AxisTable *table, const double *pool, int32_t axes, 
         return false;
     }
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
-        if (!(0 <= table->kind[k] && table->kind[k] < KINDS)) {
+        if (!(0 <= table->kind[k] && table->kind[k] < KINDS) || (k > 0 && table->kind[k] <= table->kind[k - 1])) {
             return false;
         }
     }
     for (int32_t kind = 0; kind < KINDS; kind++) {
+        if (!switch_fits(&table->switching[kind], axes)) {
+            return false;
+        }
         if (table->switching[kind].configured) {
-            if (!switch_fits(&table->switching[kind], axes)) {
-                return false;
-            }
             if (!compensation_fits(kind, pool, &table->compensation, axes, numbers)) {
                 return false;
             }
+        } else if (!compensation_absent(kind, &table->compensation)) {
+            return false;
+        } else {
+            /* nothing */
         }
     }
     return true;
@@ -3070,8 +3892,13 @@ bool axcomp_tables_fit(const Tables *tables, const double *pool, int32_t numbers
     if (!(tables->cycle_time > 0.0 && 0 <= tables->axis_count && tables->axis_count <= AXES)) {
         return false;
     }
+    for (int32_t k = 0; k < numbers; k++) {
+        if (!(fabs(pool[k]) < LARGEST)) {
+            return false;
+        }
+    }
     for (int32_t i = 0; i < tables->axis_count; i++) {
-        if (!axis_fits(&tables->axis[i], pool, tables->axis_count, numbers)) {
+        if (!sound_AxisTable(&tables->axis[i]) || !axis_fits(&tables->axis[i], pool, tables->axis_count, numbers)) {
             return false;
         }
     }
@@ -3079,7 +3906,65 @@ bool axcomp_tables_fit(const Tables *tables, const double *pool, int32_t numbers
         return false;
     }
     for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
-        if (!volumetric_fits(pool, &tables->volumetric[k], tables->axis_count, numbers)) {
+        if (!sound_VolumetricTable(&tables->volumetric[k])
+                || !volumetric_fits(pool, &tables->volumetric[k], tables->axis_count, numbers)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether the state of an axis belongs to its tables; what is not configured remembers nothing. */
+static bool axis_state_fits(const AxisTable *table, const AxisState *state)
+{
+    for (int32_t kind = 0; kind < KINDS; kind++) {
+        if (!switch_state_fits(&table->switching[kind], &state->switching[kind])) {
+            return false;
+        }
+        if (!compensation_state_fits(kind, &table->compensation, &state->compensation)) {
+            return false;
+        }
+    }
+    return shift_state_fits(table->shift_cycles, &state->shift);
+}
+
+/* Tell whether a state is one of these tables. */
+bool axcomp_state_fits(const Tables *tables, const State *state)
+{
+    if (state->tool_length - state->tool_length != 0.0) {
+        return false;
+    }
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        if (!(sound_AxisState(&state->axis[i]) && sound_AxisMotion(&state->motion.axis[i])
+                && motion_fits(&state->motion.axis[i]))) {
+            return false;
+        }
+        if (!axis_state_fits(&tables->axis[i], &state->axis[i])) {
+            return false;
+        }
+    }
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+        if (!(sound_VolumetricState(&state->volumetric[k])
+                && volumetric_state_fits(&tables->volumetric[k], &state->volumetric[k]))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Tell whether inputs and outputs can be used: numbers may be anything, Booleans are 0 or 1. */
+bool axcomp_given_fits(const Tables *tables, const Inputs *inputs, const Outputs *outputs)
+{
+    if (!decided_Inputs(inputs)) {
+        return false;
+    }
+    for (int32_t i = 0; i < tables->axis_count; i++) {
+        if (!(decided_AxisInputs(&inputs->axis[i]) && decided_AxisOutputs(&outputs->axis[i]))) {
+            return false;
+        }
+    }
+    for (int32_t k = 0, k_end = tables->volumetrics; k < k_end; k++) {
+        if (!(decided_VolumetricInputs(&inputs->volumetric[k]) && decided_VolumetricOutputs(&outputs->volumetric[k]))) {
             return false;
         }
     }

@@ -10,6 +10,23 @@
 #define AXCOMP_API
 #endif
 
+/* ============================== interpolation =============================== */
+
+#define LARGEST 1e15  /* a number beyond this is taken for infinite: sums with it could overflow */
+#define SHORTEST_PERIOD 1e-6  /* ° or mm, of what repeats */
+
+/* Piecewise linear y(x): `points` abscissae and as many ordinates in the pool. */
+typedef struct {
+    int32_t points;
+    int32_t x;
+    int32_t y;
+} Curve;
+
+/* Where a search ended last time. */
+typedef struct {
+    int32_t interval;
+} Lookup;
+
 /* =============================== trigonometry =============================== */
 
 #define QUARTER_PI 0.7853981633974483
@@ -17,6 +34,7 @@
 #define TWO_OVER_PI 0.6366197723675814
 #define HALF_PI_HEAD 1.57079632673412561417
 #define HALF_PI_MIDDLE 6.07710050630396597660e-11
+#define LARGEST_ANGLE 1e5  /* rad; beyond it the reduction is not exact, and far beyond the turns are no int */
 #define HALF_PI_TAIL 2.02226624879595063154e-21
 
 /* ================================ switching ================================= */
@@ -63,20 +81,6 @@ typedef struct {
 typedef struct {
     int32_t step;  /* reversal_cycles: the amount is added, 0: nothing is */
 } BacklashState;
-
-/* ============================== interpolation =============================== */
-
-/* Piecewise linear y(x): `points` abscissae and as many ordinates in the pool. */
-typedef struct {
-    int32_t points;
-    int32_t x;
-    int32_t y;
-} Curve;
-
-/* Where a search ended last time. */
-typedef struct {
-    int32_t interval;
-} Lookup;
 
 /* ================================== motion ================================== */
 
@@ -578,9 +582,10 @@ typedef struct {
 
 #define LARGEST_TOOL 1e6  /* mm */
 
-/* ================================== cycle =================================== */
+/* ============================== volumetric_fit ============================== */
 
-#define LARGEST 1e15  /* an input beyond this is taken for infinite: sums with it could overflow */
+#define ALL_LINEAR 7  /* X, Y and Z as bits */
+#define ANGLE_LARGEST 1e4  /* rad; sums of two are still reduced */
 
 #ifdef __cplusplus
 extern "C" {
@@ -611,6 +616,12 @@ AXCOMP_API void axcomp_move_axis_table(AxisTable *table, int32_t first);
 
 /* Tell whether the tables can be used with a pool of so many numbers. */
 AXCOMP_API bool axcomp_tables_fit(const Tables *tables, const double *pool, int32_t numbers);
+
+/* Tell whether a state is one of these tables. */
+AXCOMP_API bool axcomp_state_fits(const Tables *tables, const State *state);
+
+/* Tell whether inputs and outputs can be used: numbers may be anything, Booleans are 0 or 1. */
+AXCOMP_API bool axcomp_given_fits(const Tables *tables, const Inputs *inputs, const Outputs *outputs);
 
 #ifdef __cplusplus
 }

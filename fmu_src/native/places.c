@@ -12,7 +12,8 @@ const Place axcomp_machine_places[PLACES] = {
     AT(3) {'s', 't', offsetof(Memory, controls.update_path)},
     AT(4) {'r', 'p', offsetof(Memory, controls.cycle_time)},
     AT(5) {'r', 'i', offsetof(Memory, inputs.tool_length)},
-    AT(6) {'b', 'p', offsetof(Memory, inputs.derive_motion)}
+    AT(6) {'b', 'p', offsetof(Memory, inputs.derive_motion)},
+    AT(7) {'i', 'p', offsetof(Memory, controls.largest_step)}
 };
 
 const Place axcomp_axis_places[PLACES] = {
@@ -78,6 +79,58 @@ const Place axcomp_volumetric_places[PLACES] = {
     AT(3) {'r', 'i', offsetof(VolumetricInputs, reduction_y)},
     AT(4) {'r', 'i', offsetof(VolumetricInputs, reduction_z)},
     AT(5) {'b', 'o', offsetof(VolumetricOutputs, active)}
+};
+
+const TableArray axcomp_table_arrays[] = {
+    {16, 'x',
+     offsetof(AxisTable, compensation.cross.curve.x),
+     offsetof(AxisTable, compensation.cross.curve.points),
+     0,
+     offsetof(AxisTable, compensation.cross.master),
+     "cross.positions"},
+    {17, 'y',
+     offsetof(AxisTable, compensation.cross.curve.y),
+     offsetof(AxisTable, compensation.cross.curve.points),
+     0,
+     0,
+     "cross.corrections"},
+    {20, 'y',
+     offsetof(AxisTable, compensation.plane.values),
+     offsetof(AxisTable, compensation.plane.points1),
+     offsetof(AxisTable, compensation.plane.points2),
+     0,
+     "plane.corrections"},
+    {28, 'x',
+     offsetof(AxisTable, compensation.leadscrew.positive.x),
+     offsetof(AxisTable, compensation.leadscrew.positive.points),
+     0,
+     offsetof(AxisTable, compensation.leadscrew.argument),
+     "leadscrew.positions"},
+    {29, 'y',
+     offsetof(AxisTable, compensation.leadscrew.positive.y),
+     offsetof(AxisTable, compensation.leadscrew.positive.points),
+     0,
+     0,
+     "leadscrew.positive"},
+    {30, 'y',
+     offsetof(AxisTable, compensation.leadscrew.negative.y),
+     offsetof(AxisTable, compensation.leadscrew.negative.points),
+     0,
+     0,
+     "leadscrew.negative"},
+    {32, 'v',
+     offsetof(AxisTable, compensation.friction.curve.x),
+     offsetof(AxisTable, compensation.friction.curve.points),
+     0,
+     0,
+     "friction.velocities"},
+    {33, 'y',
+     offsetof(AxisTable, compensation.friction.curve.y),
+     offsetof(AxisTable, compensation.friction.curve.points),
+     0,
+     0,
+     "friction.currents"},
+    {0, 0, 0, 0, 0, 0, NULL}
 };
 
 const char *const axcomp_notices[KINDS] = {

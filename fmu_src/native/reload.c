@@ -5,13 +5,17 @@
 #include "instance.h"
 #include "lists.h"
 
+enum { KEPT_LISTS = 8 };
+
 static Lists *read_lists(const Instance *instance, fmi2Status status, const char *call, const char *path)
 {
     const char *complaint = "there is no memory for it";
     Lists *lists = (Lists *)calloc(1, sizeof *lists);
+    int rounding = axcomp_round_to_nearest();
     size_t size = 0;
     unsigned char *data = axcomp_read_file(path, &size);
     if (data == NULL) {
+        axcomp_restore_rounding(rounding);
         axcomp_say(instance, status, "%s: %s cannot be read", call, path);
         axcomp_free_lists(lists);
         return NULL;
@@ -20,6 +24,7 @@ static Lists *read_lists(const Instance *instance, fmi2Status status, const char
         complaint = axcomp_read_image(data, size, lists);
     }
     free(data);
+    axcomp_restore_rounding(rounding);
     if (complaint != NULL) {
         axcomp_say(instance, status, "%s: %s is refused: %s", call, path, complaint);
         axcomp_free_lists(lists);
@@ -143,6 +148,29 @@ const Lists *axcomp_lists_with(const Instance *instance, uint32_t identity)
     return lists == NULL && instance->first->identity == identity ? instance->first : lists;
 }
 
+void axcomp_hold_lists(Instance *instance, uint32_t identity, int by)
+{
+    Lists *lists = own_lists_with(instance, identity);
+    if (lists != NULL && (by > 0 || lists->held > 0)) {
+        lists->held += (unsigned)by;
+    }
+}
+
+void axcomp_forget_lists(Instance *instance)
+{
+    int kept = 0;
+    for (Lists **link = &instance->own; *link != NULL;) {
+        Lists *lists = *link;
+        bool used = lists == instance->lists || lists == instance->waiting || lists->held > 0;
+        if (!used && ((lists->tuned && !lists->saved) || ++kept > KEPT_LISTS)) {
+            *link = lists->next;
+            axcomp_free_lists(lists);
+        } else {
+            link = &lists->next;
+        }
+    }
+}
+
 void axcomp_watch_reload(Instance *instance, bool path_set)
 {
     Memory *memory = &instance->memory;
@@ -179,6 +207,7 @@ void axcomp_watch_reload(Instance *instance, bool path_set)
     }
     instance->waiting = lists;
     memory->refused = lists == NULL;
+    axcomp_forget_lists(instance);
 }
 
 void axcomp_take_update(Instance *instance)

@@ -20,8 +20,15 @@
 #include <wchar.h>
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
+#include <io.h>
 #else
 #include <dlfcn.h>
+#endif
+#if defined(__unix__) || defined(__APPLE__)
+#define AXCOMP_POSIX
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #endif
 
 static int digit_of(char c)
@@ -156,6 +163,7 @@ int axcomp_path_beside_library(const char *file, char *path)
     return 1;
 }
 
+/* Open a regular file, NULL if it is none: a pipe would be waited for, a device may do something. */
 static FILE *open_file(const char *path)
 {
 #if defined(_WIN32)
@@ -164,7 +172,25 @@ static FILE *open_file(const char *path)
         && MultiByteToWideChar(CP_ACP, 0, path, -1, wide, PATH_LENGTH) == 0) {
         return NULL;
     }
-    return _wfopen(wide, L"rb");
+    FILE *file = _wfopen(wide, L"rb");
+    if (file != NULL && GetFileType((HANDLE)_get_osfhandle(_fileno(file))) != FILE_TYPE_DISK) {
+        fclose(file);
+        return NULL;
+    }
+    return file;
+#elif defined(AXCOMP_POSIX)
+    struct stat about;
+    if (stat(path, &about) != 0 || !S_ISREG(about.st_mode)) {
+        return NULL;
+    }
+    /* It may have become another one: that is not waited for either. */
+    int descriptor = open(path, O_RDONLY | O_NONBLOCK);
+    FILE *file = descriptor >= 0 && fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode) ? fdopen(descriptor, "rb")
+                                                                                              : NULL;
+    if (file == NULL && descriptor >= 0) {
+        close(descriptor);
+    }
+    return file;
 #else
     return fopen(path, "rb");
 #endif
@@ -178,7 +204,6 @@ unsigned char *axcomp_read_file(const char *path, size_t *size)
     }
     unsigned char *data = NULL;
     long length = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
-    /* A folder opens too, and claims an absurd length. */
     if (length >= 0 && length < 0x7fffffffL && fseek(file, 0, SEEK_SET) == 0) {
         data = (unsigned char *)malloc((size_t)length + 1u);
         if (data != NULL && fread(data, 1, (size_t)length, file) != (size_t)length) {

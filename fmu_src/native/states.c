@@ -57,6 +57,17 @@ static void place(char *arrays, const Shape *shape, Memory *memory)
     axcomp_place_outputs(&memory->outputs, arrays + state + 2u * inputs, shape);
 }
 
+/* Note that a state refers to its lists (`by` 1), or no longer does (-1); a new one has none. */
+static void hold_lists_of(Instance *instance, const Saved *saved, int by)
+{
+    if (saved->size != 0) {
+        axcomp_hold_lists(instance, saved->lists, by);
+        if (saved->waits != 0) {
+            axcomp_hold_lists(instance, saved->waiting, by);
+        }
+    }
+}
+
 FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2FMUstate *state)
 {
     Instance *instance = axcomp_given((Instance *)component, state, "fmi2GetFMUstate");
@@ -70,9 +81,12 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     size_t path = strlen(memory->controls.update_path) + 1u;
     size_t size = size_of(path, &shape);
     Saved *saved = (Saved *)*state;
-    if (saved != NULL && saved->size != size) {
-        axcomp_free_state(saved);
-        saved = NULL;
+    if (saved != NULL) {
+        hold_lists_of(instance, saved, -1);
+        if (saved->size != size) {
+            axcomp_free_state(saved);
+            saved = NULL;
+        }
     }
     if (saved == NULL) {
         saved = (Saved *)axcomp_new_state(size > sizeof *saved ? size : sizeof *saved);
@@ -85,8 +99,12 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     saved->layout = AXCOMP_LAYOUT;
     saved->size = (uint32_t)size;
     saved->lists = instance->lists->identity;
+    if (instance->lists->tuned) {
+        ((Lists *)instance->lists)->saved = true; /* it is this instance's own */
+    }
     saved->waits = waiting != NULL;
     saved->waiting = waiting != NULL ? waiting->identity : 0;
+    hold_lists_of(instance, saved, 1);
     saved->check = 0;
     memcpy((char *)saved + offsetof(Saved, memory), memory, PATH - offsetof(Saved, memory) + path);
     Memory *to = &saved->memory;
@@ -129,6 +147,9 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     if (!shape_of(instance, saved, &shape)) {
         return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state belongs to other lists");
     }
+    if (!axcomp_memory_fits(axcomp_lists_with(instance, saved->lists), &saved->memory)) {
+        return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state has numbers that no run leads to");
+    }
     Memory *memory = &instance->memory;
     const Memory *from = &saved->memory;
     memcpy((char *)memory, from, PATH - offsetof(Saved, memory) + path_size((const char *)saved, saved->size));
@@ -139,6 +160,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
     axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
     axcomp_wait_for(instance, saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL);
+    instance->stale = true;
     return fmi2OK;
 }
 
@@ -147,7 +169,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2FreeFMUstate)(fmi2Component component, fmi2
     if (component == NULL) {
         return fmi2Error;
     }
-    if (state != NULL) {
+    if (state != NULL && *state != NULL) {
+        hold_lists_of((Instance *)component, (const Saved *)*state, -1);
         axcomp_free_state(*state);
         *state = NULL;
     }
@@ -229,13 +252,17 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DeSerializeFMUstate)(fmi2Component componen
         complaint = "the state belongs to other lists";
     } else if (path == 0 || size != size_of(path, &shape)) {
         complaint = "the state is truncated, or none of this FMU";
+    } else {
+        place((char *)saved + arrays_at(path), &shape, &saved->memory);
+        if (!axcomp_memory_fits(axcomp_lists_with(instance, saved->lists), &saved->memory)) {
+            complaint = "the state has numbers that no run leads to";
+        }
     }
     if (complaint != NULL) {
         axcomp_free_state(saved);
         return axcomp_say(instance, fmi2Error, "fmi2DeSerializeFMUstate: %s", complaint);
     }
-    Memory *memory = &saved->memory;
-    place((char *)saved + arrays_at(path), &shape, memory);
+    hold_lists_of(instance, saved, 1);
     *state = saved;
     return fmi2OK;
 }

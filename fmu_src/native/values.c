@@ -7,37 +7,88 @@
 #include "places.h"
 
 enum {
-    WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING,
-    WITH_VALUES = INITIALIZATION | STEPPING | TERMINATED
+    WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING | EVENT,
+    WITH_VALUES = INITIALIZATION | STEPPING | EVENT | TERMINATED
 };
 
-/* Where the value of a reference is, and of what kind; NULL after telling the host that there is none. */
-static void *place_of(Instance *instance, fmi2ValueReference reference, char type, const Place **place)
+/* Where the variables of a block of value references are. */
+typedef struct {
+    unsigned block;
+    const Place *places;
+    char *results;  /* what its outputs are in */
+    char *given;    /* and the rest */
+} Spot;
+
+static Spot spot_of(Instance *instance, unsigned block)
 {
+    static const Place NONE[PLACES] = {{0, 0, 0}};
     Memory *memory = &instance->memory;
-    unsigned block = reference / PLACES;
-    void *record = NULL;
-    *place = NULL;
+    Spot spot = {block, NONE, (char *)memory, (char *)memory};
+    unsigned axis = block - AXIS_BLOCK;
+    unsigned volumetric = block - VOLUMETRIC_BLOCK;
     if (block == MACHINE_BLOCK) {
-        *place = &axcomp_machine_places[reference % PLACES];
-        record = memory;
-    } else if (block >= AXIS_BLOCK && block < AXIS_BLOCK + (unsigned)instance->lists->tables.axis_count) {
-        *place = &axcomp_axis_places[reference % PLACES];
-        record = (*place)->causality == 'o' ? (void *)&memory->outputs.axis[block - AXIS_BLOCK]
-                                            : (void *)&memory->inputs.axis[block - AXIS_BLOCK];
-    } else if (block >= VOLUMETRIC_BLOCK && block < VOLUMETRIC_BLOCK + (unsigned)instance->lists->tables.volumetrics) {
-        *place = &axcomp_volumetric_places[reference % PLACES];
-        record = (*place)->causality == 'o' ? (void *)&memory->outputs.volumetric[block - VOLUMETRIC_BLOCK]
-                                            : (void *)&memory->inputs.volumetric[block - VOLUMETRIC_BLOCK];
+        spot.places = axcomp_machine_places;
+    } else if (axis < (unsigned)instance->lists->tables.axis_count) {
+        spot.places = axcomp_axis_places;
+        spot.results = (char *)&memory->outputs.axis[axis];
+        spot.given = (char *)&memory->inputs.axis[axis];
+    } else if (volumetric < (unsigned)instance->lists->tables.volumetrics) {
+        spot.places = axcomp_volumetric_places;
+        spot.results = (char *)&memory->outputs.volumetric[volumetric];
+        spot.given = (char *)&memory->inputs.volumetric[volumetric];
     }
-    char own = record != NULL ? (*place)->type : 0;
-    bool as_real = type == 'r' && instance->first->real_only && (own == 'b' || own == 'i');
-    if (own != type && !as_real) {
-        axcomp_say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
-        return NULL;
-    }
-    return (char *)record + (*place)->offset;
+    return spot;
 }
+
+static fmi2Status say_unknown(const Instance *instance, fmi2ValueReference reference)
+{
+    return axcomp_say(instance, fmi2Error, "there is no variable of this type with the value reference %u", reference);
+}
+
+/* Whether a variable that is no input may be set now; if not, the host is told. */
+static bool may_set(const Instance *instance, const Place *place, fmi2ValueReference reference)
+{
+    bool fixed = place->causality == 'p' && (instance->memory.phase & (STEPPING | EVENT)) != 0;
+    if (place->causality == 'o' || fixed) {
+        axcomp_say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
+        return false;
+    }
+    return true;
+}
+
+/* Whether a variable can be taken for one of another type: in some FMUs Booleans and Integers are Real. */
+static bool is_real(const Instance *instance, const Place *place)
+{
+    return instance->first->real_only && (place->type == 'b' || place->type == 'i');
+}
+
+/* Do something with each variable of a type, which is `at` where `place` says; hosts name the variables of a block one
+ * after the other. */
+#define FOR_EACH(LETTER, DO)                                                                                         \
+    for (size_t i = 0; i < count;) {                                                                                 \
+        const Spot spot = spot_of(instance, references[i] / PLACES);                                                 \
+        do {                                                                                                         \
+            const Place *place = &spot.places[references[i] % PLACES];                                               \
+            if (place->type != (LETTER) && !((LETTER) == 'r' && is_real(instance, place))) {                         \
+                return say_unknown(instance, references[i]);                                                         \
+            }                                                                                                        \
+            void *at = (place->causality == 'o' ? spot.results : spot.given) + place->offset;                        \
+            DO                                                                                                       \
+            i++;                                                                                                     \
+        } while (i < count && references[i] / PLACES == spot.block);                                                 \
+    }
+
+#define GETTER(NAME, FmiType, LETTER, VALUE)                                                                         \
+    FMI2_EXPORT fmi2Status FMI2_NAME(NAME)(fmi2Component component, const fmi2ValueReference references[],           \
+                                           size_t count, FmiType values[])                                           \
+    {                                                                                                                \
+        Instance *instance = readable(component, references, values, count);                                         \
+        if (instance == NULL) {                                                                                      \
+            return fmi2Error;                                                                                        \
+        }                                                                                                            \
+        FOR_EACH(LETTER, values[i] = VALUE;)                                                                         \
+        return fmi2OK;                                                                                               \
+    }
 
 /* The instance, if values may be read now; during initialization the outputs are computed first. */
 static Instance *readable(fmi2Component component, const void *references, const void *values, size_t count)
@@ -48,30 +99,34 @@ static Instance *readable(fmi2Component component, const void *references, const
     }
     if (instance != NULL && instance->memory.phase == INITIALIZATION) {
         axcomp_preview_outputs(instance);
+    } else if (instance != NULL && instance->memory.phase == EVENT) {
+        axcomp_refresh_outputs(instance);
     }
     return instance;
-}
-
-/* Where a value is to be set; NULL after telling the host that it must not be. */
-static void *settable(Instance *instance, fmi2ValueReference reference, char type, const Place **place)
-{
-    void *value = place_of(instance, reference, type, place);
-    if (value == NULL) {
-        return NULL;
-    }
-    bool fixed = (*place)->causality == 'p' && instance->memory.phase == STEPPING;
-    if ((*place)->causality == 'o' || fixed) {
-        axcomp_say(instance, fmi2Error, "the variable with the value reference %u cannot be set now", reference);
-        return NULL;
-    }
-    return value;
 }
 
 static Instance *writable(fmi2Component component, const void *references, const void *values, size_t count)
 {
     Instance *instance = axcomp_allowed(component, WITH_INPUTS, "fmi2Set...");
-    return count == 0 ? instance : axcomp_given(axcomp_given(instance, references, "fmi2Set..."), values, "fmi2Set...");
+    if (count > 0) {
+        instance = axcomp_given(axcomp_given(instance, references, "fmi2Set..."), values, "fmi2Set...");
+    }
+    if (instance != NULL) {
+        instance->stale = true;
+    }
+    return instance;
 }
+
+/* A variable of another type as a Real. */
+static double number_of(const Place *place, const void *at)
+{
+    return place->type == 'b' ? (double)*(const bool *)at : (double)*(const int32_t *)at;
+}
+
+GETTER(fmi2GetReal, fmi2Real, 'r', place->type == 'r' ? *(const double *)at : number_of(place, at))
+GETTER(fmi2GetInteger, fmi2Integer, 'i', *(const int32_t *)at)
+GETTER(fmi2GetBoolean, fmi2Boolean, 'b', *(const bool *)at ? fmi2True : fmi2False)
+GETTER(fmi2GetString, fmi2String, 's', (const char *)at)
 
 /* The nearest integer; of what has none the largest, which is no value of a switch. */
 static int32_t whole(double value)
@@ -79,77 +134,30 @@ static int32_t whole(double value)
     return value > -(double)INT32_MAX && value < (double)INT32_MAX ? (int32_t)floor(value + 0.5) : INT32_MAX;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component component, const fmi2ValueReference references[],
-                                              size_t count, fmi2Real values[])
+static void set_number(const Place *place, void *at, double value)
 {
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
+    if (place->type == 'b') {
+        *(bool *)at = whole(value) != 0 && value == value;
+    } else {
+        *(int32_t *)at = whole(value);
     }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const void *value = place_of(instance, references[i], 'r', &place);
-        if (value == NULL) {
-            return fmi2Error;
-        }
-        values[i] = place->type == 'b' ? (double)*(const bool *)value
-            : place->type == 'i'       ? (double)*(const int32_t *)value
-                                       : *(const double *)value;
-    }
-    return fmi2OK;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component component, const fmi2ValueReference references[],
-                                                 size_t count, fmi2Integer values[])
+static fmi2Status set_reals(Instance *instance, const fmi2ValueReference references[], size_t count,
+                            const fmi2Real values[])
 {
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const int32_t *value = (const int32_t *)place_of(instance, references[i], 'i', &place);
-        if (value == NULL) {
+    FOR_EACH('r', {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
             return fmi2Error;
         }
-        values[i] = *value;
-    }
-    return fmi2OK;
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component component, const fmi2ValueReference references[],
-                                                 size_t count, fmi2Boolean values[])
-{
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const bool *value = (const bool *)place_of(instance, references[i], 'b', &place);
-        if (value == NULL) {
-            return fmi2Error;
+        if (place->type != 'r') {
+            set_number(place, at, values[i]);
+        } else if (place->causality == 'p' && !axcomp_cycle_time_fits(values[i])) {
+            return axcomp_say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
+        } else {
+            *(double *)at = values[i];
         }
-        values[i] = *value ? fmi2True : fmi2False;
-    }
-    return fmi2OK;
-}
-
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetString)(fmi2Component component, const fmi2ValueReference references[],
-                                                size_t count, fmi2String values[])
-{
-    Instance *instance = readable(component, references, values, count);
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const char *value = (const char *)place_of(instance, references[i], 's', &place);
-        if (value == NULL) {
-            return fmi2Error;
-        }
-        values[i] = value;
-    }
+    })
     return fmi2OK;
 }
 
@@ -160,22 +168,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component component, const fmi
     if (instance == NULL) {
         return fmi2Error;
     }
-    fmi2Status status = fmi2OK;
-    const Place *place;
-    for (size_t i = 0; i < count && status == fmi2OK; i++) {
-        void *value = settable(instance, references[i], 'r', &place);
-        if (value == NULL) {
-            status = fmi2Error;
-        } else if (place->type == 'b') {
-            *(bool *)value = whole(values[i]) != 0 && values[i] == values[i];
-        } else if (place->type == 'i') {
-            *(int32_t *)value = whole(values[i]);
-        } else if (place->causality == 'p' && !axcomp_cycle_time_fits(values[i])) {
-            status = axcomp_say(instance, fmi2Error, "cycle_time must be above 0 s and below 1000 s, not %g", values[i]);
-        } else {
-            *(double *)value = values[i];
-        }
-    }
+    fmi2Status status = set_reals(instance, references, count, values);
     if (instance->first->real_only) {
         axcomp_watch_reload(instance, false);
     }
@@ -205,10 +198,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component comp
     }
     fmi2Status status = fmi2OK;
     Memory *memory = &instance->memory;
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        const char *value = (const char *)settable(instance, references[i], 'r', &place);
-        if (value == NULL) {
+    FOR_EACH('r', {
+        if (!may_set(instance, place, references[i])) {
             return fmi2Error;
         }
         if (place->causality != 'i' || place->type != 'r' || orders[i] < 1) {
@@ -218,10 +209,10 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component comp
         if (orders[i] > 1) {
             status = axcomp_say(instance, fmi2Warning, "derivatives of order %d are not used, only the first", orders[i]);
         } else {
-            *slope_of(memory, value) = values[i];
+            *slope_of(memory, (const char *)at) = values[i];
             memory->sloped = true;
         }
-    }
+    })
     return status;
 }
 
@@ -232,14 +223,24 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component component, const 
     if (instance == NULL) {
         return fmi2Error;
     }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        int32_t *value = (int32_t *)settable(instance, references[i], 'i', &place);
-        if (value == NULL) {
+    FOR_EACH('i', {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
             return fmi2Error;
         }
-        *value = values[i];
-    }
+        *(int32_t *)at = values[i];
+    })
+    return fmi2OK;
+}
+
+static fmi2Status set_booleans(Instance *instance, const fmi2ValueReference references[], size_t count,
+                               const fmi2Boolean values[])
+{
+    FOR_EACH('b', {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
+            return fmi2Error;
+        }
+        *(bool *)at = values[i] != fmi2False;
+    })
     return fmi2OK;
 }
 
@@ -250,16 +251,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component component, const 
     if (instance == NULL) {
         return fmi2Error;
     }
-    fmi2Status status = fmi2OK;
-    const Place *place;
-    for (size_t i = 0; i < count && status == fmi2OK; i++) {
-        bool *value = (bool *)settable(instance, references[i], 'b', &place);
-        if (value != NULL) {
-            *value = values[i] != fmi2False;
-        } else {
-            status = fmi2Error;
-        }
-    }
+    fmi2Status status = set_booleans(instance, references, count, values);
     axcomp_watch_reload(instance, false);
     return status;
 }
@@ -271,17 +263,15 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component component, const f
     if (instance == NULL) {
         return fmi2Error;
     }
-    const Place *place;
-    for (size_t i = 0; i < count; i++) {
-        char *value = (char *)settable(instance, references[i], 's', &place);
-        if (value == NULL) {
+    FOR_EACH('s', {
+        if (place->causality != 'i' && !may_set(instance, place, references[i])) {
             return fmi2Error;
         }
         if (values[i] == NULL || strlen(values[i]) + 1 > PATH_LENGTH) {
             return axcomp_say(instance, fmi2Error, "a string is missing, or has more than %d bytes", PATH_LENGTH - 1);
         }
-        memmove(value, values[i], strlen(values[i]) + 1);
-    }
+        memmove(at, values[i], strlen(values[i]) + 1);
+    })
     axcomp_watch_reload(instance, true);
     return fmi2OK;
 }

@@ -77,7 +77,10 @@ def test_findings_are_shown_and_stop_nothing(lists: Path, tmp_path: Path, capsys
     [
         (["--machine", "nowhere/hochlauf.lis"], "there is no axis in these lists"),
         (["--machine", "lists", "--cycle-time", "0"], "the cycle time must be above 0 s"),
-        (["--machine", "lists", "--output", "lists/hochlauf.lis/x.fmu"], "no folder lists/hochlauf.lis for x.fmu"),
+        (
+            ["--machine", "lists", "--output", "lists/hochlauf.lis/x.fmu"],
+            "there is no folder lists/hochlauf.lis for x.fmu",
+        ),
     ],
 )
 def test_what_cannot_be_built_is_a_sentence_and_status_1(

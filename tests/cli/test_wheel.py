@@ -13,8 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from axcomp.browser import PARTS
 from axcomp.demo.examples import EXPECTED, INPUT, read_csv
 from axcomp.model import models
+from axcomp.native import WASM, prebuilt_path
 
 ROOT = Path(__file__).parents[2]
 
@@ -95,3 +97,16 @@ def test_an_installed_wheel_explains_findings(installed: Path, tmp_path: Path) -
     assert "## AXC-GAP" in run(installed / "axcomp", "check", "--explain", "AXC-GAP", cwd=tmp_path)
     page = run(installed / "python", "-c", "from axcomp.lint import PAGE; print(PAGE)", cwd=tmp_path).strip()
     assert "## AXC-GAP" in Path(page).read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_builds_the_page(installed: Path, tmp_path: Path) -> None:
+    """Of Pyodide there are only names here: it is fetched, and not in the wheel."""
+    (tmp_path / "pyodide").mkdir()
+    for name in PARTS:
+        (tmp_path / "pyodide" / name).write_bytes(b"")
+    run(installed / "axcomp", "page", "--pyodide", "pyodide", "--output", "site", "--cycles", "10", cwd=tmp_path)
+    built = {path.name for path in (tmp_path / "site").iterdir()}
+    static = {path.name for path in (ROOT / "axcomp" / "browser" / "static").iterdir()}
+    assert built == static | {"pyodide", "axcomp.zip", "kernel.wasm", "examples.json", "proof.json", "site.json"}
+    assert (tmp_path / "site" / "kernel.wasm").read_bytes() == prebuilt_path(WASM).read_bytes()

@@ -203,3 +203,18 @@ def test_a_trace_that_cannot_be_used_is_refused_with_a_sentence(columns, words, 
     error = capsys.readouterr().err
     assert words.replace(r"t.csv", str(file)) in error
     assert "Traceback" not in error
+
+
+def test_inertia_is_taken_off_where_the_velocity_changes_slowly():
+    """Ramps of 60 mm/s² take 60 of a heavy axis; quick ones tell how heavy it is."""
+    time, velocity = to_and_fro([30.0, 60.0, 120.0, 200.0], hold=0.4)
+    slow = np.concatenate([np.linspace(20.0, 200.0, 1500), np.linspace(200.0, 0.0, 200), np.zeros(60)])
+    velocity = np.convolve(np.concatenate([velocity, slow, -slow]), np.ones(15) / 15.0, "same")
+    time = np.arange(len(velocity)) * CYCLE
+    force = np.gradient(velocity, time) + np.sign(velocity) * (300.0 + 0.6 * np.abs(velocity))
+    force += np.random.default_rng(1).normal(0.0, 2.0, len(time))
+    readings = FrictionReadings.of(AxisTrace(time, {"velocity": velocity, "current": force}, "mm", "memory"))
+    assert len(readings.velocities) > 20
+    off = np.sign(readings.velocities) * readings.currents - (300.0 + 0.6 * np.abs(readings.velocities))
+    assert np.median(np.abs(off)) < 3.0
+    assert np.max(np.abs(off)) < 15.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import pickle
 import shutil
 import zipfile
@@ -371,3 +372,21 @@ def test_nothing_at_all_in_resources_is_survived(tmp_path: Path) -> None:
     assert driver.step({"X.setpoint": 10.0})["X.error"] == 0
     driver.instance.restore(driver.instance.save())
     assert driver.errors()
+
+
+def test_a_step_of_more_cycles_than_allowed_is_refused(driver: Driver, capsys: pytest.CaptureFixture[str]) -> None:
+    instance = driver.instance
+    before = instance.save()
+    assert instance.do_step(0.0, 10_001.0) is False
+    assert "a step of 10001000 cycles is refused; largest_step is 10000000" in capsys.readouterr().err
+    assert instance.save() == before
+    assert instance.do_step(0.0, 0.02) is True
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_pipe_as_update_path_is_not_waited_for(driver: Driver, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    instance = driver.instance
+    instance.controls.update_path, instance.controls.reload = str(tmp_path / "pipe"), True
+    instance.do_step(0.0, 0.001)
+    assert {axis.error for axis in instance.runtime.outputs.axis} == {902}

@@ -52,8 +52,15 @@ def test_the_guid_follows_the_model_description(fmu: Path, lists: Path, tmp_path
         package_axcomp(lists, tmp_path / "flat.fmu", naming="flat").path,
         package_axcomp(lists, tmp_path / "alone.fmu", external_tool=False).path,
     ]
-    names = ("modelDescription.xml", "documentation/index.html", "terminalsAndIcons/terminalsAndIcons.xml")
-    named = dict.fromkeys((*names, "documentation/bom.cdx.json"), b"")
+    named = dict.fromkeys(
+        (
+            "modelDescription.xml",
+            "documentation/bom.cdx.json",
+            "documentation/index.html",
+            "terminalsAndIcons/terminalsAndIcons.xml",
+        ),
+        b"",
+    )
     first, *rest = (contents(path) | named for path in (fmu, *others))
     assert rest == [first, first]
     assert len({fmpy.read_model_description(path).guid for path in (fmu, *others)}) == 3
@@ -68,9 +75,9 @@ def test_lists_lie_to_each_other_as_they_do_on_disk(tmp_path: Path) -> None:
     (project / "start" / "hochlauf.lis").write_text(text, encoding="utf-8")
     (project / "lists" / "hochlauf.lis").unlink()
     (project / "start" / "readme.txt").write_text("not part of it", encoding="utf-8")
-    assert read_machine(project / "start").machine == three_axes()
+    assert read_machine(project / "start", allow_outside=[project]).machine == three_axes()
 
-    files = contents(package_axcomp(project / "start", tmp_path / "x.fmu").path)
+    files = contents(package_axcomp(project / "start", tmp_path / "x.fmu", allow_outside=[project]).path)
     names = {name for name in files if name.startswith("resources/machine/")}
     assert names == {
         "resources/machine/start/hochlauf.lis",
@@ -82,16 +89,31 @@ def test_lists_lie_to_each_other_as_they_do_on_disk(tmp_path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(files[name])
     place = json.loads(files["resources/axcomp.json"])["lists"]
-    assert read_machine(tmp_path / "unpacked" / "resources" / place).machine == three_axes()
+    resources = tmp_path / "unpacked" / "resources"
+    assert read_machine(resources / place, allow_outside=[resources / "machine"]).machine == three_axes()
     assert not [name for name, data in files.items() if str(tmp_path).encode() in data or b"private" in data]
 
 
-def test_lists_that_name_others_by_absolute_paths_do_not_go_into_an_fmu(lists: Path, tmp_path: Path) -> None:
-    start = tmp_path / "hochlauf.lis"
-    start.write_text(f"zahl_kw 1\nachs_kw[0] {lists / 'achskw1.lis'}\n", encoding="utf-8")
-    assert read_machine(start).machine.axes
-    with pytest.raises(BuildError, match=r"achskw1\.lis by an absolute path; in an FMU, names must be relative"):
+@pytest.mark.parametrize("name", ["{}/elsewhere/kw.lis", "../cnc/sub/kw.lis", "../elsewhere/kw.lis"])
+def test_what_is_named_anyhow_and_allowed_is_found_again_in_an_fmu(name: str, tmp_path: Path) -> None:
+    for place in ("elsewhere", "cnc/sub"):
+        (tmp_path / place).mkdir(parents=True)
+        (tmp_path / place / "kw.lis").write_text("kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n")
+    start = tmp_path / "cnc" / "hochlauf.lis"
+    start.write_text(f"zahl_kw 1\nachs_kw[0] {name.format(tmp_path)}\n", encoding="utf-8")
+    with pytest.raises(BuildError, match="AXC-FOLDER"):
         package_axcomp(start, tmp_path / "x.fmu")
+    allowed = [tmp_path / "cnc", tmp_path / "elsewhere"]
+    files = contents(package_axcomp(start, tmp_path / "x.fmu", allow_outside=allowed).path)
+    for path in (path for path in files if path.startswith("resources/machine/")):
+        (tmp_path / "u" / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "u" / path).write_bytes(files[path])
+    resources = tmp_path / "u" / "resources"
+    shutil.rmtree(tmp_path / "elsewhere")
+    again = read_machine(
+        resources / json.loads(files["resources/axcomp.json"])["lists"], allow_outside=[resources / "machine"]
+    )
+    assert again.machine == read_machine(tmp_path / "cnc" / "sub" / "kw.lis").machine
 
 
 def test_a_single_list_is_a_machine(lists: Path, tmp_path: Path) -> None:

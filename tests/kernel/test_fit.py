@@ -10,11 +10,11 @@ from hypothesis import given, settings, strategies as st
 from strategies import machines
 
 from axcomp.interface import slot_in
-from axcomp.kernel import CROSS, Outputs, State, Tables, Vec, cycle, fields_of, tables_fit, zero
+from axcomp.kernel import CROSS, Outputs, State, Tables, Vec, cosine, cycle, fields_of, sine, tables_fit, zero
 from axcomp.kinds import Backlash, Temperature
 from axcomp.lists import read_machine
 from axcomp.model import Axis, Machine
-from axcomp.runtime import Compiled, compile_tables, initial_inputs
+from axcomp.runtime import Compiled, Runtime, SnapshotError, compile_tables, initial_inputs
 
 MODELS = Path(__file__).parents[2] / "models"
 WRONG = (-(2**31), -1, 10**6, 2**31 - 1)
@@ -108,6 +108,14 @@ DAMAGES: list[tuple[str, Any]] = [
     ("axis[0].compensation.leadscrew.modulo_range", NAN),
     ("axis[0].compensation.friction.delay", 249),
     ("axis[0].compensation.friction.lookahead", 5),
+    ("axis[0].compensation.leadscrew.negative.points", 2),
+    ("axis[0].compensation.plane.interval2", INF),
+    ("axis[0].compensation.plane.start2", 1e15),
+    ("axis[0].compensation.friction.scaling", 1e16),
+    ("axis[0].compensation.friction.position_delay", NAN),
+    ("axis[0].compensation.plane.master1.period", 1e-7),
+    ("axis[0].kind[1]", 0),
+    ("axis[0].modulo_range", 1e-9),
     ("axis[1].compensation.crosstalk.variant", 9),
     ("axis[1].compensation.crosstalk.deceleration", 0.0),
     ("axis[1].compensation.crosstalk.values", 10**7),
@@ -156,6 +164,100 @@ def test_damaged_numbers_of_kinds_without_tables_are_refused(path: str, value: A
     assert not tables_fit(tables, pool, 0)
 
 
+VOLUMETRIC_DAMAGES: list[tuple[str, Any]] = [
+    ("chain[1]", 1),
+    ("chain_length", 2),
+    ("chain_length", 7),
+    ("column[0]", 2),
+    ("workpiece_axes", 7),
+    ("offset[3]", NAN),
+    ("member_limit[0]", INF),
+    ("direction[4]", NAN),
+    ("block[0].steps_per_unit[0]", 1e9),
+    ("block[0].steps_per_unit[0]", -1.0),
+    ("block[0].nodes", 1),
+    ("block[0].points[0]", 1),
+    ("block[0].period[0]", INF),
+    ("block[0].start[0]", -1e16),
+    ("block[0].arguments", 0),
+]
+
+
+@pytest.mark.parametrize(("path", "value"), VOLUMETRIC_DAMAGES)
+def test_each_of_these_of_a_volumetric_compensation_is_refused(path: str, value: Any) -> None:
+    tables, pool = compiled("five_axis")
+    damaged(tables, f"volumetric[0].{path}", value)
+    assert not tables_fit(tables, pool, len(pool))
+
+
+def test_six_letters_of_which_each_comes_twice_are_no_chain() -> None:
+    tables, pool = compiled("five_axis")
+    volumetric = tables.volumetric[0]
+    volumetric.chain_length, volumetric.chain[:] = 6, [0, 1, 2, 0, 1, 2]
+    assert not tables_fit(tables, pool, len(pool))
+
+
+def test_a_step_that_leads_to_the_last_knot_is_refused() -> None:
+    tables, pool = compiled("five_axis")
+    block = next(block for block in tables.volumetric[0].block if block.points[0] > 2)
+    first = block.steps[0]
+    pool[first + 1] = block.points[0] - 1.0
+    assert not tables_fit(tables, pool, len(pool))
+
+
+@pytest.mark.parametrize("value", [1e20, 1e5, NAN, -INF])
+def test_an_angle_that_cannot_be_reduced_is_refused(value: float) -> None:
+    tables, pool = compiled("five_axis")
+    volumetric = tables.volumetric[0]
+    volumetric.constants, volumetric.constant = 1, len(pool)
+    numbers = [*pool, 3.0, value]
+    assert tables_fit(tables, [*numbers[:-1], 0.001], len(numbers))
+    assert not tables_fit(tables, numbers, len(numbers))
+
+
+@pytest.mark.parametrize("x", [1e20, 1e60, -1e300, NAN, INF])
+def test_no_angle_stops_the_sine(x: float) -> None:
+    assert isinstance(sine(x), float)
+    assert isinstance(cosine(x), float)
+
+
+STATE_DAMAGES: list[tuple[str, Any]] = [
+    ("axis[0].compensation.friction.head", -561),
+    ("axis[0].compensation.friction.head", 249),
+    ("axis[0].compensation.friction.since_reversal", 5),
+    ("axis[0].compensation.friction.direction", 2),
+    ("axis[0].compensation.leadscrew.lookup.interval", 10**6),
+    ("axis[0].compensation.leadscrew.reversal_step", 21),
+    ("axis[1].compensation.crosstalk.lookup.interval", -1),
+    ("axis[2].compensation.cross.lookup.interval", 2**31 - 1),
+    (f"axis[2].switching[{CROSS}].step", 21),
+    (f"axis[2].switching[{CROSS}].weight", NAN),
+    (f"axis[2].switching[{CROSS}].weight", 1.5),
+    ("axis[0].shift.step", 21),
+    ("axis[0].volumetric_shift", INF),
+    ("motion.axis[0].sign", 2),
+    ("motion.axis[0].counted", NAN),
+    ("tool_length", NAN),
+]
+
+
+@pytest.mark.parametrize(("path", "value"), STATE_DAMAGES)
+def test_a_state_that_no_run_leads_to_is_refused_and_nothing_changes(path: str, value: Any) -> None:
+    runtime = Runtime(read_machine(MODELS / "three_axis").machine)
+    runtime.advance(0.02)
+    before = runtime.save()
+    slot = slot_in(runtime.state, path)
+    assert slot is not None
+    kept = slot.get()
+    slot.set(value)
+    forged = runtime.save()
+    slot.set(kept)
+    with pytest.raises(SnapshotError):
+        runtime.restore(forged)
+    assert runtime.save() == before
+    runtime.restore(before)
+
+
 def test_abscissae_that_do_not_ascend_are_refused() -> None:
     tables, pool = compiled("three_axis")
     first = tables.axis[2].compensation.cross.curve.x
@@ -170,5 +272,9 @@ def compiled(model: str) -> Compiled:
     """Return fresh tables of a model, and a pool that is guarded."""
     if model not in _COMPILED:
         _COMPILED[model] = compile_tables(read_machine(MODELS / model).machine)
+        # As many as C has: a number of axes that is too large is found out by what is behind the last.
+        whole, tables = zero(Tables), _COMPILED[model].tables
+        tables.axis += whole.axis[len(tables.axis) :]
+        tables.volumetric += whole.volumetric[len(tables.volumetric) :]
     tables, pool = _COMPILED[model]
     return Compiled(copy.deepcopy(tables), Guarded(pool))

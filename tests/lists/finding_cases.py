@@ -123,6 +123,9 @@ CASES = [
     machine(
         "AXC-PATH", {"hochlauf.lis": start_up(r"C:\cnc\kw.lis"), "kw.lis": LEADSCREW}, 3, "achs_kw[0]", "leadscrew"
     ),
+    Case("AXC-FOLDER", {"hochlauf.lis": start_up(r"..\kw.lis")}, 3, "achs_kw[0]", None),
+    Case("AXC-FOLDER", {"hochlauf.lis": start_up("/kw.lis")}, 3, "achs_kw[0]", None),
+    Case("AXC-FOLDER", {"hochlauf.lis": start_up(r"sub\..\..\kw.lis")}, 3, "achs_kw[0]", None),
     # Grammar
     one("AXC-SYNTAX", f"****\n{LEADSCREW}", 1, "", "leadscrew"),
     one("AXC-ELISION", f"{LEADSCREW}...\n", 8, "", "leadscrew"),

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from axcomp.cli import main
 from axcomp.lists import Reading, read_machine
 from axcomp.model import AxisType, ModuloRange
 
@@ -13,6 +14,11 @@ ReadLists = Callable[..., Reading]
 
 TABLE = "kw.ssfk.unit 1\nkw.ssfk.interval 10000\nkw.ssfk.kw_nr_max 2\nkw.ssfk.table[0].pos 1\nkw.ssfk.table[1].pos 2\n"
 CROSS = "kw.crosscomp.table[0].setpoint 0\nkw.crosscomp.table[0].correction 1\nkw.crosscomp.master_ax_nr"
+
+
+LEADSCREW_ROWS = (
+    "kw.ssfk.unit 1\nkw.ssfk.kw_nr_max 2\nkw.ssfk.interval 10\nkw.ssfk.table[0].pos 1\nkw.ssfk.table[1].pos 2\n"
+)
 
 
 def axis(number: int, text: str = "") -> str:
@@ -155,7 +161,7 @@ def test_both_slashes_separate(name: str, read_lists: ReadLists) -> None:
     assert (codes(reading), acting(reading)) == ([], {1: ["leadscrew"]})
 
 
-@pytest.mark.parametrize("name", [r"SUB\KW.LIS", r"..\CNC\Sub\Kw.lis", r"D:\other\kw.lis", "/home/cnc/KW.lis"])
+@pytest.mark.parametrize("name", [r"SUB\KW.LIS", r"D:\other\kw.lis", "/home/cnc/KW.lis"])
 def test_names_of_another_computer_are_matched_with_a_warning(name: str, read_lists: ReadLists) -> None:
     files = {"cnc/hochlauf.lis": f"zahl_kw 1\nachs_kw[0] {name}\n", "cnc/sub/kw.lis": compensation(1)}
     files["cnc/kw.lis"] = compensation(1)
@@ -163,21 +169,27 @@ def test_names_of_another_computer_are_matched_with_a_warning(name: str, read_li
     assert (codes(reading), acting(reading)) == (["AXC-PATH"], {1: ["leadscrew"]})
 
 
-def test_an_absolute_name_is_used_as_it_is(read_lists: ReadLists, tmp_path: Path) -> None:
-    target = tmp_path / "elsewhere" / "kw.lis"
-    target.parent.mkdir()
-    target.write_text(compensation(1))
-    reading = read_lists({"cnc/hochlauf.lis": f"zahl_kw 1\nachs_kw[0] {target}\n"}, "cnc")
-    assert (codes(reading), acting(reading)) == ([], {1: ["leadscrew"]})
+@pytest.mark.parametrize("name", ["{}/elsewhere/kw.lis", r"..\elsewhere\kw.lis", "../cnc/../elsewhere/kw.lis"])
+def test_a_name_that_leads_elsewhere_is_used_where_that_is_allowed(name: str, tmp_path: Path) -> None:
+    for file, text in (("elsewhere/kw.lis", compensation(1)), ("cnc/x", "")):
+        (tmp_path / file).parent.mkdir()
+        (tmp_path / file).write_text(text)
+    start = tmp_path / "cnc" / "hochlauf.lis"
+    start.write_text(f"zahl_kw 1\nachs_kw[0] {name.format(tmp_path)}\n")
+    assert codes(read_machine(start)) == ["AXC-FOLDER"]
+    reading = read_machine(start, allow_outside=[tmp_path / "elsewhere"])
+    assert codes(reading) == []
+    assert acting(reading) == acting(reading.again()) == {1: ["leadscrew"]}
 
 
 def test_a_list_that_may_not_be_read_is_named(read_lists: ReadLists, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> bytes:
+    def refuse(path: Path, *_: object) -> int:
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
-    reading = read_lists({"achskw1.lis": compensation(1)})
-    [finding] = reading.findings
+    path = read_lists({"achskw1.lis": compensation(1)}).path
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "open", refuse)
+        [finding] = read_machine(path).findings
     assert (finding.code, finding.file[-11:]) == ("AXC-UNREADABLE", "achskw1.lis")
     assert "Permission denied" in finding.message
 
@@ -230,3 +242,23 @@ def test_masters_need_an_axis_list_where_there_are_axis_lists(read_lists: ReadLi
     files = {"achskw1.lis": compensation(1, f"{CROSS} 2\n"), "achsmd1.lis": axis(1, "lr_param.crosscomp 1\n")}
     assert acting(read_lists(files)) == {1: []}
     assert acting(read_lists(files | {"achsmd2.lis": axis(2)})) == {1: ["cross"], 2: []}
+
+
+@pytest.mark.parametrize(
+    ("axis", "table", "code"),
+    [
+        ("lr_param.ssfk 0\n", "kw.ssfk.kw_nr_max 10\nkw.ssfk.interval 10\n", "AXC-INACTIVE"),
+        ("lr_param.frict_comp 0\n", "frict_comp.table_entries 3\n", "AXC-INACTIVE"),
+        ("kenngr.achs_typ 2\nkenngr.achs_mode 5\ngetriebe[0].moduloo 0.001\n", LEADSCREW_ROWS, "110052"),
+        ("kenngr.achs_typ 2\nkenngr.achs_mode 5\ngetriebe[0].moduloo 0.01\n", LEADSCREW_ROWS, "110052"),
+    ],
+)
+def test_what_stands_alone_or_is_too_small_is_told_and_stops_neither_check_nor_build(
+    axis: str, table: str, code: str, read_lists: ReadLists, tmp_path: Path
+) -> None:
+    start = "zahl_mds 1\nachs_mds[0] md.lis\nzahl_kw 1\nachs_kw[0] kw.lis\n"
+    files = {"hochlauf.lis": start, "md.lis": f"kopf.achs_nr 1\n{axis}", "kw.lis": f"kopf.achs_nr 1\n{table}"}
+    assert code in codes(read_lists(files))
+    for words in (["check"], ["build", "--image", str(tmp_path / "t.bin"), "--machine"]):
+        errors = sum(finding.severity.value == "error" for finding in read_machine(tmp_path).findings)
+        assert main([*words, str(tmp_path)]) == errors

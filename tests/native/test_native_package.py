@@ -55,7 +55,7 @@ def test_it_holds_library_image_lists_and_all_sources(native_fmu: Path, lists: P
     assert sources == {*SOURCES, *HEADERS, "tables.c", "config.h", "buildDescription.xml"}
     compiled = description.buildConfigurations[0].sourceFileSets[0].sourceFiles
     assert compiled == [*SOURCES, "tables.c"]
-    assert {path.name for path in NATIVE.iterdir()} == {*LIBRARY_SOURCES, *LIBRARY_HEADERS, "embedded.c"}
+    assert {path.name for path in NATIVE.iterdir()} == {*LIBRARY_SOURCES, *LIBRARY_HEADERS, "embedded.c", "wasm.c"}
 
 
 @pytest.mark.parametrize("naming", ["structured", "flat"])

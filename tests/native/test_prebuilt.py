@@ -19,7 +19,7 @@ import pytest
 from axcomp.cli import main
 from axcomp.fmu import package_native
 from axcomp.model import fmu_sources, models
-from axcomp.native import PLATFORMS, own_platform, prebuild, prebuilt, prebuilt_path, why_not_prebuilt
+from axcomp.native import PLATFORMS, WASM, own_platform, prebuild, prebuilt, prebuilt_path, why_not_prebuilt
 
 ELF = {"linux64": (2, 62), "aarch64-linux": (2, 183), "linux32": (1, 3)}
 """Class (1: 32 bit, 2: 64 bit) and e_machine."""
@@ -35,12 +35,12 @@ def binaries(fmu: Path) -> dict[str, bytes]:
 def test_they_are_those_of_the_committed_sources() -> None:
     assert why_not_prebuilt() == "", "run python -m axcomp.native.prebuild"
     assert {path.name for path in prebuilt.FOLDER.iterdir()} == {
-        *(prebuilt_path(platform).name for platform in PLATFORMS),
+        *(prebuilt_path(platform).name for platform in (*PLATFORMS, WASM)),
         "manifest.json",
     }
 
 
-@pytest.mark.parametrize("platform", PLATFORMS)
+@pytest.mark.parametrize("platform", (*PLATFORMS, WASM))
 def test_nothing_in_them_tells_where_or_when_they_were_built(platform: str) -> None:
     data = prebuilt_path(platform).read_bytes()
     for word in (b"/root", b"/home", b"/tmp", b"/work", b"zig-cache", b".zig", b"GNU\0", b".pdb", b".c\0"):

@@ -282,3 +282,22 @@ def test_a_run_that_takes_its_worker_with_it_is_one_failed_run(tmp_path: Path) -
     )  # fmt: skip
     lines = sorted(run.stdout.split("\n"))[1:]
     assert lines == [f"{k} {10 + k} NoneType" if k != 2 else "2 None KilledWorker" for k in range(6)], run.stderr
+
+
+@pytest.mark.parametrize("damage", ["a byte that is no text", "another value", "another key", "a newline gone"])
+def test_a_line_of_a_journal_that_was_altered_is_none_and_the_others_are_taken(damage: str, tmp_path: Path) -> None:
+    path = tmp_path / "r.csv.journal"
+    with Journal(path) as journal:
+        for k in range(4):
+            journal.add(f"key{k}", {"a": 0.5 + k, ERROR: ""})
+    lines = path.read_bytes().splitlines(keepends=True)
+    lines[1] = {
+        "a byte that is no text": lines[1][:30] + b"\xff" + lines[1][31:],
+        "another value": lines[1].replace(b"1.5", b"2.5"),
+        "another key": lines[1].replace(b"key1", b"key9"),
+        "a newline gone": lines[1][:-1],
+    }[damage]
+    path.write_bytes(b"".join(lines))
+    with Journal(path) as journal:
+        left = {"key0": 0.5, "key3": 3.5} | ({} if damage == "a newline gone" else {"key2": 2.5})
+        assert {key: row["a"] for key, row in journal.rows().items()} == left

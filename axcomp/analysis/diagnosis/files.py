@@ -7,12 +7,11 @@ from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
 from ...fmu import BuildError
-from ...lists import Reading
+from ...lists import Files, Findings, Reading, is_absolute
 from .records import Diagnosis, VolumetricList, diagnose
 from .workbook import write_workbook
 
 _SUFFIX = ".xlsx"
-_ARCHIVE = b"PK"
 
 
 class Written(NamedTuple):
@@ -33,12 +32,13 @@ def write_diagnoses(
     written: set[Path] = set()
     for source in sources:
         try:
-            path, notes = _named(source) if output is None else (_numbered(output, source, len(sources)), [])
+            path, notes = _named(source, reading) if output is None else (_numbered(output, source, len(sources)), [])
             if path in written:
                 path = _numbered(path, source, len(sources))
                 notes.append(f"{source.path.name}: another list names the same diagnosis file; {path} is written.")
             written.add(path)
-            _check_replaced(path)
+            if path.is_dir():
+                raise BuildError(f"{path} cannot be written: it is a folder.")
             diagnosis = diagnose(source, reading)
             write_workbook(diagnosis, path)
         except BuildError as error:
@@ -49,22 +49,28 @@ def write_diagnoses(
             yield Written(path, diagnosis, tuple(notes))
 
 
-def _named(source: VolumetricList) -> tuple[Path, list[str]]:
+def _named(source: VolumetricList, reading: Reading) -> tuple[Path, list[str]]:
     r"""Return where the file goes that a list names, and what there is to say about it.
 
-    Names are relative to the start-up list. A folder at the root or on a drive is that of a controller; where there is
-    none on this machine the file goes beside the list.
+    Names are relative to the start-up list and lead nowhere else (see ``Files.place``). A folder at the root or on a
+    drive is that of a controller: the file goes beside the list unless it may go there.
     """
     name = source.diagnosis_file
     # Both \ and / separate for Windows, as for the controller.
     named = PureWindowsPath(name)
     notes = []
-    path = source.folder / named.as_posix()
-    if named.anchor:
-        path = Path(name)
-        if not (path.is_absolute() and path.parent.is_dir()):
-            path = source.path.with_name(named.name)
-            notes.append(f"{source.path.name}: there is no {named.parent} on this machine; {path} is written.")
+    files = Files(Findings(), allowed=reading.allow_outside)
+    path = files.place(source.folder, name)
+    if is_absolute(name) and (path is None or not path.parent.is_dir()):
+        there = Path(name).is_absolute() and Path(name).parent.is_dir()
+        fault = f"{named.parent} is not allowed" if there else f"there is no {named.parent} on this machine"
+        path = files.place(source.path.parent, named.name)
+        notes.append(f"{source.path.name}: {fault}; {path} is written.")
+    if path is None:
+        raise BuildError(
+            f"{source.path.name}: {name!r} leads out of the folder of the machine; it is not written without "
+            "--allow-outside FOLDER."
+        )
     if path.suffix.lower() != _SUFFIX:
         notes.append(f"{path.name} is a spreadsheet all the same: programs may ask for the suffix {_SUFFIX}.")
     return path, notes
@@ -72,13 +78,3 @@ def _named(source: VolumetricList) -> tuple[Path, list[str]]:
 
 def _numbered(path: Path, source: VolumetricList, count: int) -> Path:
     return path if count == 1 else path.with_name(f"{path.stem}-{source.index}{path.suffix}")
-
-
-def _check_replaced(path: Path) -> None:
-    """Refuse to replace what cannot be an earlier diagnosis: a list may name any file, another list too."""
-    if path.is_dir():
-        raise BuildError(f"{path} cannot be written: it is a folder.")
-    if path.is_file():
-        with path.open("rb") as file:
-            if file.read(len(_ARCHIVE)) not in (b"", _ARCHIVE):
-                raise BuildError(f"{path} is there and is no spreadsheet; it stays as it is.")

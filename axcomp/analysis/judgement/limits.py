@@ -12,11 +12,10 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-import numpy as np
-
-from ...engine import Array, TcpModel
+from ...kernel import correction_at, zeros
 from ...lists import Findings
-from ...model import LETTERS, LINEAR, Axis, Machine, Volumetric
+from ...model import ERRORS, LETTERS, LINEAR, Axis, Machine, Volumetric
+from ...runtime import error_model
 from .positions import Positions
 
 POSITIONS_MAX = 1000
@@ -60,35 +59,36 @@ def largest_corrections(machine: Machine, tool_length: float = 0.0) -> Iterator[
     """Yield the largest correction of each axis by each volumetric compensation, gantry slaves included."""
     for volumetric in machine.volumetric:
         names = {letter: machine.numbered(number).name for letter, number in volumetric.axes}
-        positions = np.array(list(product(*_sides(machine, volumetric))))
-        model = TcpModel(volumetric)
-        lengths = np.full(len(positions), tool_length)
-        corrections = model.corrections(positions, lengths)
+        pool, table = error_model(volumetric)
+        found: list[tuple[tuple[float, ...], list[float]]] = []
+        for place in product(*_sides(machine, volumetric)):
+            correction = zeros(len(LINEAR))
+            if correction_at(pool, table, list(place), tool_length, [0] * len(ERRORS), correction):
+                found.append((place, list(correction)))
         for index, letter in machine.members(volumetric).items():
-            if letter in LINEAR and volumetric.sign(letter):
-                found = corrections[:, LINEAR.index(letter)]
-                if not np.isnan(found).all():
-                    worst = int(np.nanargmax(np.abs(found)))
-                    where = {names[a]: p for a, p in zip(LETTERS, positions[worst].tolist(), strict=True) if a in names}
-                    value = volumetric.sign(letter) * float(found[worst])
-                    yield LargestCorrection(volumetric.index, machine.axes[index], value, where, tool_length)
+            if found and letter in LINEAR and volumetric.sign(letter):
+                along = LINEAR.index(letter)
+                place, correction = max(found, key=lambda one: abs(one[1][along]))
+                where = {names[a]: position for a, position in zip(LETTERS, place, strict=True) if a in names}
+                value = volumetric.sign(letter) * correction[along]
+                yield LargestCorrection(volumetric.index, machine.axes[index], value, where, tool_length)
 
 
-def _sides(machine: Machine, volumetric: Volumetric) -> list[Array]:
+def _sides(machine: Machine, volumetric: Volumetric) -> list[list[float]]:
     """Return positions for each letter: those of records, thinned until their combinations are few enough."""
     numbers, nodes = dict(volumetric.axes), machine.error_nodes()
     own = {letter for table in volumetric.errors for letter in table.arguments}
     sides = []
     for letter in LETTERS:
-        found = np.array(nodes.get(numbers.get(letter, 0), [0.0]))
-        sides.append(found if letter in own else np.unique(found[[0, -1]]))
+        found = nodes.get(numbers.get(letter, 0), [0.0])
+        sides.append(found if letter in own else sorted({found[0], found[-1]}))
     while math.prod(map(len, sides)) > POSITIONS_MAX:
         longest = max(range(len(sides)), key=lambda k: len(sides[k]))
         count = len(sides[longest])
         if count <= 2:
             break
         wanted = max(2, int(0.7 * count))
-        sides[longest] = sides[longest][np.linspace(0, count - 1, wanted).round().astype(int)]
+        sides[longest] = [sides[longest][round(k * (count - 1) / (wanted - 1))] for k in range(wanted)]
     return sides
 
 

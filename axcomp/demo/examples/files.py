@@ -12,6 +12,7 @@ import numpy as np
 from ...engine import Array, Engine
 from ...lists import write_machine
 from ...plant import MEMORYLESS, load_plant
+from ...saving import write_whole
 from .machines import MACHINES
 from .trajectories import TRAJECTORIES
 
@@ -60,7 +61,7 @@ def _write(path: Path, columns: Mapping[str, Any]) -> Path:
     rows = [",".join(f'"{name}"' for name in columns)]
     rounded = [[_text(value) for value in np.asarray(values, dtype=float).tolist()] for values in columns.values()]
     rows += [",".join(row) for row in zip(*rounded, strict=True)]
-    path.write_bytes(("\n".join(rows) + "\n").encode())
+    write_whole(path, "\n".join(rows) + "\n")
     return path
 
 

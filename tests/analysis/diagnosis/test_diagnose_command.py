@@ -73,7 +73,11 @@ def test_the_file_goes_where_the_list_says_or_beside_it(
 
 def test_a_place_that_is_there_is_taken(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "out").mkdir()
-    assert main(["diagnose", str(lists_naming(tmp_path / "lists", str(tmp_path / "out" / "d.xlsx")))]) == 0
+    lists = str(lists_naming(tmp_path / "lists", str(tmp_path / "out" / "d.xlsx")))
+    assert main(["diagnose", lists]) == 0
+    assert (tmp_path / "lists" / "d.xlsx").is_file()
+    assert "out is not allowed" in capsys.readouterr().err
+    assert main(["diagnose", lists, "--allow-outside", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out" / "d.xlsx").is_file()
     assert capsys.readouterr().err == ""
 
@@ -95,7 +99,10 @@ def test_an_earlier_diagnosis_is_replaced_but_nothing_else(tmp_path: Path, capsy
     first = (folder / "d.xlsx").read_bytes()
     assert main(["diagnose", str(folder)]) == 0
     assert (folder / "d.xlsx").read_bytes() == first
-    for name, sentence in (("hochlauf.lis", "is no spreadsheet; it stays as it is"), ("..", "it is a folder")):
+    for name, sentence in (
+        ("hochlauf.lis", "was not written by axcomp; it stays as it is"),
+        ("..", "leads out of the folder"),
+    ):
         capsys.readouterr()
         before = (folder / "hochlauf.lis").read_bytes()
         assert main(["diagnose", str(lists_naming(tmp_path, name))]) == 1
@@ -147,15 +154,15 @@ def test_without_openpyxl_a_sentence_says_what_to_install(tmp_path: Path, capsys
 
 def test_a_build_writes_the_files_that_lists_name(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "C:\\volcomp\\d.xlsx")
-    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
+    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin"), "--diagnosis"]) == 0
     out, err = capsys.readouterr()
     assert out.splitlines()[-1] == str(folder / "d.xlsx")
     assert "note: vol_comp0.lis: there is no C:\\volcomp on this machine" in err
     assert settings(folder / "d.xlsx")["records used"] == 2
 
 
-def test_a_build_without_such_a_list_writes_none(tmp_path: Path) -> None:
-    folder = write_lists(tmp_path / "lists", "file[0] e.csv", e_csv=CSV)
+def test_a_build_that_is_not_asked_writes_none(tmp_path: Path) -> None:
+    folder = lists_naming(tmp_path / "lists", "d.xlsx")
     before = sorted(folder.iterdir())
     assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
     assert sorted(folder.iterdir()) == before
@@ -164,14 +171,14 @@ def test_a_build_without_such_a_list_writes_none(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("hidden")
 def test_a_build_without_openpyxl_says_so_and_succeeds(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "d.xlsx")
-    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
+    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin"), "--diagnosis"]) == 0
     assert "note: d.xlsx is not written: it needs openpyxl: pip install 'axcomp[tables]'" in capsys.readouterr().err
     assert not (folder / "d.xlsx").exists()
 
 
 def test_a_build_that_cannot_write_one_says_so_and_succeeds(tmp_path: Path, capsys: Capture) -> None:
     folder = lists_naming(tmp_path / "lists", "hochlauf.lis")
-    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin")]) == 0
+    assert main(["build", "--machine", str(folder), "--image", str(tmp_path / "t.bin"), "--diagnosis"]) == 0
     assert "stays as it is" in capsys.readouterr().err
     assert (tmp_path / "t.bin").is_file()
 

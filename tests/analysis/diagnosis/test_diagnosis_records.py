@@ -96,7 +96,7 @@ def test_files_that_cannot_be_read_have_their_place(tmp_path: Path) -> None:
         ("binary.csv", False, 0),
         ("e.csv", True, 1),
     ]
-    assert {finding.code for finding in diagnosis.findings} == {"AXC-MISSING", "AXC-BINARY"}
+    assert {finding.code for finding in diagnosis.findings} == {"AXC-FOLDER", "AXC-BINARY"}
     assert not diagnosis.in_force
 
 
