@@ -14,13 +14,15 @@ import pytest
 from axcomp.cli import COMMANDS, main
 
 ROOT = Path(__file__).parents[1]
+GENERATED = {"api.md", "commands.md", "compensations.md", "gallery.md"}
+"""Pages that the site makes while it is built."""
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "models").glob("*/README.md")])
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text(encoding="utf-8")):
-        if "://" not in target:
+        if "://" not in target and target not in GENERATED:
             assert (page.parent / target).exists(), target
 
 
