@@ -55,7 +55,8 @@ STEPS = """\
 ## Native and Python
 
 `axcomp build` makes the native FMU: libraries for all platforms or those asked for, and C sources. With
-`--runtime python` it makes one whose libraries start Python. Variables, value references and results are the same in every bit; these differ:
+`--runtime python` it makes one whose libraries start Python. Variables, value references and results are the same in
+every bit; these differ:
 
 | | native | `--runtime python` |
 | --- | --- | --- |
