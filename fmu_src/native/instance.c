@@ -45,7 +45,7 @@ void axcomp_begin_again(Instance *instance)
     memory->phase = INSTANTIATED;
     memory->controls.cycle_time = instance->first->tables.cycle_time;
     axcomp_use_lists(instance, instance->first);
-    axcomp_wait_for(instance, NULL);
+    (void)axcomp_wait_for(instance, NULL);
     axcomp_set_initial_inputs(&instance->tables, &memory->inputs);
 }
 

@@ -32,6 +32,7 @@ LIBC = {
     "memmove",
     "memset",
     "memcmp",
+    "bcmp",
 }
 LIBC |= {"strlen", "strcmp", "strncmp", "vsnprintf", "dladdr"}
 LIBC |= {f"__{name}_chk" for name in ("memcpy", "memmove", "memset", "vsnprintf", "fread")} | {"__stack_chk_fail"}
