@@ -70,7 +70,7 @@ void axcomp_begin_again(Instance *instance)
     memory->controls.largest_step = AXCOMP_LARGEST_STEP;
     memory->stop_time = HUGE_VAL;
     axcomp_use_lists(instance, instance->first);
-    axcomp_wait_for(instance, NULL);
+    (void)axcomp_wait_for(instance, NULL);
 }
 
 bool axcomp_memory_fits(const Lists *lists, const Memory *memory)

@@ -117,9 +117,9 @@ void axcomp_watch_reload(Instance *instance, bool path_set);
 /* Take the lists that wait, or tell by the outputs that they were refused. */
 void axcomp_take_update(Instance *instance);
 
-/* Lists that the next step takes, NULL: none. */
+/* Lists that the next step takes, NULL: none. To wait for some may need memory; returns whether there is so much. */
 const Lists *axcomp_waiting_lists(const Instance *instance);
-void axcomp_wait_for(Instance *instance, const Lists *lists);
+bool axcomp_wait_for(Instance *instance, const Lists *lists);
 
 /* The tables that belong to this FMU; NULL after telling the host why there are none. */
 const Lists *axcomp_own_lists(Instance *instance, fmi2String location);

@@ -239,9 +239,43 @@ const Lists *axcomp_waiting_lists(const Instance *instance)
     return instance->waiting;
 }
 
-void axcomp_wait_for(Instance *instance, const Lists *lists)
+/* A copy of an array, NULL if there is no memory; it has room for one element even if there is none. */
+static void *copy_of(const void *array, int32_t count, size_t size)
+{
+    void *copy = calloc((size_t)count + 1u, size);
+    if (copy != NULL && count > 0) {
+        memcpy(copy, array, (size_t)count * size);
+    }
+    return copy;
+}
+
+/* Make shared lists the instance's own: an update writes into those that it takes. NULL: there is no memory. */
+static Lists *own_copy(Instance *instance, const Lists *lists)
+{
+    Lists *own = (Lists *)copy_of(lists, 1, sizeof *own);
+    if (own == NULL) {
+        return NULL;
+    }
+    own->pool = (const double *)copy_of(lists->pool, lists->numbers, sizeof(double));
+    own->tables.axis = (AxisTable *)copy_of(lists->tables.axis, lists->tables.axis_count, sizeof(AxisTable));
+    own->tables.volumetric =
+        (VolumetricTable *)copy_of(lists->tables.volumetric, lists->tables.volumetrics, sizeof(VolumetricTable));
+    if (own->pool == NULL || own->tables.axis == NULL || own->tables.volumetric == NULL) {
+        axcomp_free_lists(own);
+        return NULL;
+    }
+    own->next = instance->own;
+    instance->own = own;
+    return own;
+}
+
+bool axcomp_wait_for(Instance *instance, const Lists *lists)
 {
     instance->waiting = lists != NULL ? own_lists_with(instance, lists->identity) : NULL;
+    if (lists != NULL && instance->waiting == NULL) {
+        instance->waiting = own_copy(instance, lists);
+    }
+    return lists == NULL || instance->waiting != NULL;
 }
 
 const Lists *axcomp_own_lists(Instance *instance, fmi2String location)

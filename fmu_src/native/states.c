@@ -150,6 +150,9 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     if (!axcomp_memory_fits(axcomp_lists_with(instance, saved->lists), &saved->memory)) {
         return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: the state has numbers that no run leads to");
     }
+    if (!axcomp_wait_for(instance, saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL)) {
+        return axcomp_say(instance, fmi2Error, "fmi2SetFMUstate: there is no memory for the lists that wait");
+    }
     Memory *memory = &instance->memory;
     const Memory *from = &saved->memory;
     memcpy((char *)memory, from, PATH - offsetof(Saved, memory) + path_size((const char *)saved, saved->size));
@@ -159,7 +162,6 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     axcomp_copy_inputs(&memory->slopes, &from->slopes, &shape);
     axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
     axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
-    axcomp_wait_for(instance, saved->waits != 0 ? axcomp_lists_with(instance, saved->waiting) : NULL);
     instance->stale = true;
     return fmi2OK;
 }

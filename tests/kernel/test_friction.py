@@ -220,3 +220,18 @@ class TestDelay:
         late, now = (drive(machine(friction(delay_cycles=n)), {"X.velocity": v})["X.current"] for n in (delay, 0))
         assert (late[delay:] == now[: 600 - delay]).all()
         assert (late[:delay] == 0).all()
+
+    @pytest.mark.parametrize(("before", "after"), [(0, 3), (2, 5), (5, 2), (3, 248), (248, 3), (4, 4)])
+    def test_with_another_delay_what_waits_goes_on_waiting_and_what_is_not_there_is_held(
+        self, before: int, after: int, rng: np.random.Generator
+    ) -> None:
+        v, at = rng.uniform(-60, 60, 700), 300
+        now = drive(machine(friction()), {"X.velocity": v})["X.current"]
+        runtime = Runtime(machine(friction(delay_cycles=before)))
+        first = drive(runtime, {"X.velocity": v[:at]})["X.current"]
+        runtime.update(machine(friction(delay_cycles=after)))
+        second = drive(runtime, {"X.velocity": v[at:]})["X.current"]
+        assert (first[before:] == now[: at - before]).all()
+        # The oldest current that is still known is the one of the last cycle before the update.
+        origin = np.maximum(np.arange(at, 700) - after, at - 1 - before)
+        assert (second == now[origin]).all()

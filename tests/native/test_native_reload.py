@@ -100,6 +100,27 @@ def test_an_update_on_the_move_has_the_bits_of_the_engine(native_fmu: Path, tmp_
     assert found == expected
 
 
+def delayed(cycles: int) -> Machine:
+    """Three axes, with another delay of the friction current of X."""
+    x, *others = three_axes().axes
+    assert x.friction is not None
+    return Machine((x.having(replace(x.friction, delay_cycles=cycles)), *others))
+
+
+@pytest.mark.parametrize("cycles", [0, 1, 3, 248])
+def test_another_delay_of_the_friction_current_has_the_bits_of_the_engine(
+    native_fmu: Path, tmp_path: Path, cycles: int
+) -> None:
+    """The delay line grows or shrinks while currents wait in it."""
+    rows = trajectory(700)
+    found = in_child(on_the_move, native_fmu, image(delayed(cycles), tmp_path), rows, 73, 0.001)
+    engine = Engine(three_axes())
+    expected = [engine.step(row) for row in rows[:73]]
+    engine.runtime.update(delayed(cycles))
+    expected += [engine.step(row) for row in rows[73:]]
+    assert found == expected
+
+
 def resized(kind: str) -> Machine:
     """Three axes, one of them with another ``max_points``, all of them with twice the pitch errors."""
     axes = list(three_axes(2.0).axes)

@@ -12,10 +12,10 @@ import pytest
 from fmu_host import in_child
 
 from axcomp.bench import machine_of
-from axcomp.fmu import package_native
+from axcomp.fmu import NoCompilerError, package_native
 from axcomp.lists import write_machine
 from axcomp.model import models
-from axcomp.native import own_platform, prebuilt_path, why_not_prebuilt
+from axcomp.native import PLATFORMS, own_platform
 
 INSTANCES = 200
 
@@ -28,9 +28,10 @@ class _MallocInfo(ctypes.Structure):
         return int(self.field7) + int(self.field4)
 
 
-def measured(folder: Path, guid: str) -> tuple[float, int]:
-    """Return the bytes of one more instance, and those of its serialized state."""
-    library: Any = ctypes.CDLL(str(prebuilt_path(own_platform())))
+def measured(folder: Path, guid: str) -> tuple[float, list[bytes]]:
+    """Return the bytes of one more instance, and the serialized states of two."""
+    own = own_platform()
+    library: Any = ctypes.CDLL(str(folder / "binaries" / own / f"axcomp{PLATFORMS[own].suffix}"))
     libc: Any = ctypes.CDLL(None)
     libc.mallinfo2.restype = _MallocInfo
     library.fmi2Instantiate.restype = ctypes.c_void_p
@@ -41,26 +42,36 @@ def measured(folder: Path, guid: str) -> tuple[float, int]:
         assert found
         return found
 
-    first = instance()
+    def state_of(owner: ctypes.c_void_p) -> bytes:
+        library.fmi2EnterInitializationMode(owner)
+        library.fmi2ExitInitializationMode(owner)
+        state, size = ctypes.c_void_p(), ctypes.c_size_t()
+        assert library.fmi2GetFMUstate(owner, ctypes.byref(state)) == 0
+        assert library.fmi2SerializedFMUstateSize(owner, state, ctypes.byref(size)) == 0
+        data = ctypes.create_string_buffer(size.value)
+        assert library.fmi2SerializeFMUstate(owner, state, data, size) == 0
+        return data.raw
+
+    first, second = instance(), instance()
     before = libc.mallinfo2().used()
     for _ in range(INSTANCES):
         instance()
     each = (libc.mallinfo2().used() - before) / INSTANCES
-    library.fmi2EnterInitializationMode(first)
-    library.fmi2ExitInitializationMode(first)
-    state, size = ctypes.c_void_p(), ctypes.c_size_t()
-    assert library.fmi2GetFMUstate(first, ctypes.byref(state)) == 0
-    assert library.fmi2SerializedFMUstateSize(first, state, ctypes.byref(size)) == 0
-    return each, size.value
+    return each, [state_of(first), state_of(second)]
 
 
 def sizes(lists: Path, folder: Path) -> tuple[float, int]:
-    if not sys.platform.startswith("linux") or not hasattr(ctypes.CDLL(None), "mallinfo2") or why_not_prebuilt():
-        pytest.skip(why_not_prebuilt() or "only glibc tells how much memory is in use")
-    fmu = package_native(lists, folder / "some.fmu").path
+    """Return the bytes of an instance besides shared tables, and of a state; equal states have equal bytes."""
+    if not sys.platform.startswith("linux") or not hasattr(ctypes.CDLL(None), "mallinfo2"):
+        pytest.skip("only glibc tells how much memory is in use")
+    try:
+        fmu = package_native(lists, folder / "some.fmu").path
+    except NoCompilerError as error:
+        pytest.skip(str(error))
     unpacked = Path(fmpy.extract(fmu, folder / "fmu"))
-    found: tuple[float, int] = in_child(measured, unpacked, fmpy.read_model_description(fmu).guid)
-    return found
+    each, (one, other) = in_child(measured, unpacked, fmpy.read_model_description(fmu).guid)
+    assert one == other
+    return each, len(one)
 
 
 def test_an_instance_of_three_axes_has_24_kb_and_its_state_4_kb_at_most(tmp_path: Path) -> None:

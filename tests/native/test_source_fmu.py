@@ -36,6 +36,13 @@ def run_rows(fmu: Path, folder: Path, rows: list[dict[str, Any]]) -> list[dict[s
         return host.run(rows)
 
 
+def with_reload(fmu: Path, folder: Path) -> tuple[list[int], list[Any]]:
+    """Return the errors of the axes after an update, and the log."""
+    with Host(fmu, folder=folder) as host:
+        outputs = host.step({"update_path": "other.bin", "reload": True})
+        return [value for name, value in outputs.items() if name.endswith(".error")], host.messages
+
+
 def library_of(folder: Path) -> Path:
     own = own_platform()
     return folder / "binaries" / own / f"axcomp{PLATFORMS[own].suffix}"
@@ -65,6 +72,7 @@ def test_they_compile_without_a_warning_and_need_no_file(native_fmu: Path, compi
     assert run.returncode == 0, run.stderr
     engine, rows = Engine(three_axes()), trajectory(400)
     assert in_child(run_rows, native_fmu, folder, rows) == [engine.step(row) for row in rows]
+    assert in_child(with_reload, native_fmu, folder) == ([902] * 3, [])
 
 
 def test_musl_takes_them_too(native_fmu: Path, tmp_path: Path) -> None:

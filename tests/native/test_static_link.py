@@ -28,6 +28,22 @@ HOST = """
 #define FMI2_FUNCTION_PREFIX {name}_
 #include "fmi2Functions.h"
 
+/* Saves the state, begins again, and goes back to the state by its bytes. */
+static int there_and_back(fmi2Component c)
+{{
+    static fmi2Byte bytes[65536];
+    fmi2FMUstate state = NULL, again = NULL;
+    size_t size = 0;
+    int status = fmi2GetFMUstate(c, &state) != fmi2OK || fmi2SerializedFMUstateSize(c, state, &size) != fmi2OK
+        || size > sizeof bytes || fmi2SerializeFMUstate(c, state, bytes, size) != fmi2OK || fmi2Reset(c) != fmi2OK
+        || fmi2DeSerializeFMUstate(c, bytes, size, &again) != fmi2OK || fmi2SetFMUstate(c, again) != fmi2OK;
+    bytes[size / 2] ^= 1;
+    fmi2FreeFMUstate(c, &again);
+    status = status || fmi2DeSerializeFMUstate(c, bytes, size, &again) != fmi2Error;
+    fmi2FreeFMUstate(c, &state);
+    return status;
+}}
+
 /* Moves all real inputs; prints the bits of all real outputs of each cycle. */
 int {name}_run(void)
 {{
@@ -39,6 +55,9 @@ int {name}_run(void)
     int status = c == NULL || fmi2SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0) != fmi2OK;
     status = status || fmi2EnterInitializationMode(c) != fmi2OK || fmi2ExitInitializationMode(c) != fmi2OK;
     for (int k = 0; k < {cycles} && status == 0; k++) {{
+        if (k % 100 == 50 && there_and_back(c) != 0) {{
+            return 1;
+        }}
         for (int i = 0; i < GIVEN; i++) {{
             values[i] = ((k * (i + 3)) % 101 - 50) * 0.25;
         }}
@@ -168,6 +187,13 @@ def test_two_machines_in_one_program_compute_what_each_does_alone(two: list[Mach
     if not shutil.which("gcc"):
         pytest.skip("there is no gcc on this machine")
     assert run(str(link(GCC, two, tmp_path))) == expected(two[0]) + expected(two[1])
+
+
+def test_they_do_nothing_undefined(two: list[Machine], tmp_path: Path) -> None:
+    if not shutil.which("gcc"):
+        pytest.skip("there is no gcc on this machine")
+    sanitized = (*GCC, "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    assert run(str(link(sanitized, two, tmp_path))) == expected(two[0]) + expected(two[1])
 
 
 def test_an_importer_can_give_the_functions_another_prefix(two: list[Machine], tmp_path: Path) -> None:

@@ -100,7 +100,9 @@ class Program:
         environment = {**os.environ, **self.way.environment}
         if self.way.suffix == ".dll":
             environment["WINEPREFIX"] = str(self.host.parent / "wine")
-        runner = [tool if shutil.which(tool) else f"{tool}-static" for tool in self.way.runner]
+        runner = list(self.way.runner)
+        if runner and not shutil.which(runner[0]):
+            runner[0] += "-static"
         result = subprocess.run(
             [*runner, str(self.host), str(self.library), str(path)],
             capture_output=True,

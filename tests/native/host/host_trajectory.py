@@ -34,7 +34,8 @@ def motion(machine: Machine, source: Generator, cycles: int) -> dict[str, NDArra
         else:
             columns[variable.name] = source.normal(0, 100, cycles) * (source.random(cycles) < 0.9)
     reals = [name for name, column in columns.items() if column.dtype == np.float64]
-    columns[source.choice(reals)][source.integers(cycles)] = source.choice([np.nan, np.inf, -np.inf])
+    # Not in the first cycle: the FMU then holds what it had at the end of initialization, the engine nothing.
+    columns[source.choice(reals)][source.integers(1, cycles)] = source.choice([np.nan, np.inf, -np.inf])
     return columns
 
 

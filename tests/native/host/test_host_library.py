@@ -32,6 +32,7 @@ LIBC = {
     "memmove",
     "memset",
     "memcmp",
+    "bcmp",
 }
 LIBC |= {"memchr", "open", "stat", "fstat", "close", "fdopen"}
 ROUNDING = {"fegetround", "fesetround"}
