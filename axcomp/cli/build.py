@@ -123,9 +123,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         help="do not say in a Python FMU that it needs Python: some hosts refuse what needs something",
     )
     parser.add_argument("--verbose", action="store_true", help="name every file that is packed, and where it is from")
-    parser.add_argument(
-        "--diagnosis", action="store_true", help="write the diagnosis files that volumetric lists name, too"
-    )
+    parser.add_argument("--diagnosis", action="store_true", help="write the diagnosis files that the lists name, too")
     add_reading_options(parser)
     parser.set_defaults(do=_do_build)
 

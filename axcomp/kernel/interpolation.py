@@ -45,10 +45,13 @@ def search_interval(pool: Vec, first: int, points: int, x: float, last: int) -> 
     if x >= pool[first + last]:
         if last + 2 >= points or x < pool[first + last + 2]:
             return min(last + 1, end - 1)
-    elif x >= pool[first + last - 1]:
+    elif last > 0 and x >= pool[first + last - 1]:
         return last - 1
     intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end
-    low = min(max(last + int(intervals), 0), end - 1)
+    low = last
+    if intervals == intervals and -end < intervals < end:  # the first is said for the proof
+        low += int(intervals)
+    low = min(max(low, 0), end - 1)
     high = low + 1
     step = 1
     if x < pool[first + low]:
@@ -67,7 +70,7 @@ def search_interval(pool: Vec, first: int, points: int, x: float, last: int) -> 
             high = middle
         else:
             low = middle
-    return low
+    return min(max(low, 0), end - 1)
 
 
 def curve_value(pool: Vec, curve: Curve, x: float, lookup: Lookup) -> float:

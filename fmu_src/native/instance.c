@@ -11,6 +11,7 @@ static const double COUNTED_MAX = 9007199254740992.0;  /* cycles are counted exa
 
 const char *const axcomp_log_categories[CATEGORIES] = {"logStatusWarning", "logStatusError", "logAll"};
 
+#if defined(FE_TONEAREST)
 int axcomp_round_to_nearest(void)
 {
     int before = fegetround();
@@ -26,6 +27,18 @@ void axcomp_restore_rounding(int mode)
         fesetround(mode);
     }
 }
+#else
+/* A processor that rounds in one way. */
+int axcomp_round_to_nearest(void)
+{
+    return 0;
+}
+
+void axcomp_restore_rounding(int mode)
+{
+    (void)mode;
+}
+#endif
 
 bool axcomp_cycle_time_fits(double cycle_time)
 {

@@ -686,13 +686,17 @@ static int32_t search_interval(const double *pool, int32_t first, int32_t points
         if (last + 2 >= points || x < pool[first + last + 2]) {
             return int_min(last + 1, end - 1);
         }
-    } else if (x >= pool[first + last - 1]) {
+    } else if (last > 0 && x >= pool[first + last - 1]) {
         return last - 1;
     } else {
         /* nothing */
     }
     double intervals = (x - pool[first + last]) / (pool[first + end] - pool[first]) * end;
-    int32_t low = int_min(int_max(last + (int32_t)intervals, 0), end - 1);
+    int32_t low = last;
+    if (intervals == intervals && -end < intervals && intervals < end) {  /* the first is said for the proof */
+        low += (int32_t)intervals;
+    }
+    low = int_min(int_max(low, 0), end - 1);
     int32_t high = low + 1;
     int32_t step = 1;
     if (x < pool[first + low]) {
@@ -719,7 +723,7 @@ static int32_t search_interval(const double *pool, int32_t first, int32_t points
             low = middle;
         }
     }
-    return low;
+    return int_min(int_max(low, 0), end - 1);
 }
 
 /* Return i with x[i] ≤ x < x[i + 1], for x within the abscissae pool[first …] and points ≥ 2. */
