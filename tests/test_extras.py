@@ -125,6 +125,7 @@ def test_the_lowest_versions_do(tmp_path: Path) -> None:
     python = next(path for path in (venv / "bin" / "python", venv / "Scripts" / "python.exe") if path.exists())
     install = [python, "-m", "pip", "install", "-q", "-c", ROOT / "constraints-lowest.txt", f"{ROOT}[workbench]"]
     done = subprocess.run(install, capture_output=True, text=True, check=False)
+    assert "ResolutionImpossible" not in done.stderr, done.stderr
     if done.returncode:
         pytest.skip(f"pip cannot install here: {done.stderr[-300:]}")
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
