@@ -114,8 +114,9 @@ def printed(text: str) -> str:
 
 def png(figure: Figure) -> bytes:
     """Return a figure as a PNG file of few colours; the same figure gives the same bytes."""
-    figure.canvas.draw()
-    shown = Image.fromarray(np.asarray(figure.canvas.buffer_rgba()), "RGBA").convert("RGB")  # type: ignore[attr-defined]
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    shown = Image.fromarray(np.asarray(canvas.buffer_rgba()), "RGBA").convert("RGB")
     few = shown.quantize(COLOURS_MAX, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     # Paper stays white.
     palette, paper = few.getpalette() or [], np.asarray(few)[0, 0]
