@@ -46,7 +46,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "bench",
         description="Measure the cost of a cycle and of a whole trajectory: medians with least and greatest value.",
         epilog=EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--quick", action="store_true", help="fewer repeats, 10⁴ instead of 10⁶ cycles for memory")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="default: text")

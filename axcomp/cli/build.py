@@ -52,7 +52,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "build",
         description="Build an FMI co-simulation FMU that corrects setpoints as the controller's lists say.",
         epilog=EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--machine", type=machine_path, metavar="PATH", help="hochlauf.lis, a folder with one, or a single achskw*.lis"

@@ -59,7 +59,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         description="Read the lists of machines and print what was found, one finding a line: "
         "file:line:column: severity code: sentence.",
         epilog=_EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "paths",

@@ -20,7 +20,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "create",
         description="Makes a compensation table from measurements and puts it into a list; the rest of the list stays.",
         epilog="example:\n  axcomp create leadscrew --from x.rtl --into achskw1.lis --bound 0.5",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     kinds = parser.add_subparsers(metavar="KIND", required=True)
     for kind in FITS:
@@ -29,11 +28,7 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
 
 def _add_kind(kinds: argparse._SubParsersAction[argparse.ArgumentParser], fit: type[Fit[Any, Any]]) -> None:
     parser = kinds.add_parser(
-        fit.name,
-        help=fit.meaning,
-        description=fit.description(),
-        epilog=f"example:\n  {fit.example}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        fit.name, help=fit.meaning, description=fit.description(), epilog=f"example:\n  {fit.example}"
     )
     parser.add_argument(
         "--from", dest="files", nargs="+", type=Path, required=True, metavar="MEASUREMENT", help="files, as one"

@@ -43,7 +43,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         description="Build axcomp.fmu and plant.fmu, couple them in FMPy, and compare the errors of the machine "
         "without and with compensation, in a table and a picture.",
         epilog=EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--machine",

@@ -36,7 +36,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         description="Tunes the parameters of friction compensations on the plant until the quadrant peaks of a "
         "circular test are least, and predicts what is left of them.",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="circular tests, as for measure")
     parser.add_argument("--machine", type=machine_path, required=True, metavar="PATH", help="the controller's lists")

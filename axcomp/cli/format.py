@@ -25,12 +25,7 @@ example:
 
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the sub-command."""
-    parser = subparsers.add_parser(
-        "format",
-        description="Write lists in a layout.",
-        epilog=_EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = subparsers.add_parser("format", description="Write lists in a layout.", epilog=_EXAMPLE)
     parser.add_argument(
         "paths", type=machine_path, nargs="*", metavar="PATH", help="as for axcomp check (default: the current folder)"
     )

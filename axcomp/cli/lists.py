@@ -24,9 +24,7 @@ def add_lists_command(
     path_help: str = "start-up list, folder, or one compensation list",
 ) -> argparse.ArgumentParser:
     """Add a sub-command with the lists of a machine as PATH, and return it for its options; ``do`` carries it out."""
-    parser = subparsers.add_parser(
-        name, description=description, epilog=epilog, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = subparsers.add_parser(name, description=description, epilog=epilog)
     parser.add_argument("path", type=machine_path, metavar="PATH", help=path_help)
     add_allow_outside(parser)
     parser.set_defaults(do=do)

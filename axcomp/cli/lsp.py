@@ -15,10 +15,7 @@ example:
 def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the sub-command."""
     parser = subparsers.add_parser(
-        "lsp",
-        description="Serve an editor with the language server protocol.",
-        epilog=_EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        "lsp", description="Serve an editor with the language server protocol.", epilog=_EXAMPLE
     )
     parser.add_argument("--stdio", action="store_true", help="over standard input and output; there is nothing else")
     parser.set_defaults(do=_do_lsp)

@@ -45,7 +45,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         description="Evaluates positioning measurements by ISO 230-2 (accuracy, repeatability, reversal) and circular "
         "tests by ISO 230-4 (columns angle or time and deviation, or x and y).",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "files", nargs="+", type=Path, metavar="FILE", help="Renishaw .rtl, or a table as text or .xlsx"

@@ -25,7 +25,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "page",
         description="Build the page that looks at lists in a browser: findings, tables, axes moved by hand.",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--output", type=Path, default=Path("site"), metavar="FOLDER", help="default: site")
     parser.add_argument("--pyodide", type=Path, metavar="FOLDER", help="of the npm package, instead of fetching it")

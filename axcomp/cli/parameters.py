@@ -27,7 +27,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "parameters",
         description="Print every list parameter with its ids, type, range, unit and default.",
         epilog=_EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--format", choices=("table", "json"), default="table", help="what to print (default: table)")
     parser.add_argument(

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NoReturn
 
-OUTPUTS = ("output", "plot", "image")
+OUTPUTS = ("output", "plot", "image", "ssp", "write_baseline")
 """Options of all commands that name what is written."""
 
 CHOICES_MAX = 40

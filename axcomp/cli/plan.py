@@ -35,7 +35,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "plan",
         description="Proposes what to measure next.",
         epilog="example:\n  axcomp plan volumetric vol_comp0.lis --volume X=0..600 Y=0..500 Z=-400..0",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     kinds = parser.add_subparsers(metavar="KIND", required=True)
     one = kinds.add_parser(
@@ -43,7 +42,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         help="readings of the tool tip",
         description="Proposes the readings of the tool tip that tell most about the errors of a machine.",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     one.add_argument("list", type=Path, metavar="LIST", help="vol_comp*.lis; or the options of a new one")
     one.add_argument("--volume", nargs="+", required=True, metavar="X=0..600", help="where each axis may go, mm or °")

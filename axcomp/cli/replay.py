@@ -37,7 +37,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "replay",
         description="Compare a trace recorded on a controller with the engine, and say what explains a difference.",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("trace", type=Path, metavar="TRACE.csv", help="the recording")
     parser.add_argument("--machine", type=machine_path, required=True, metavar="PATH", help="the controller's lists")

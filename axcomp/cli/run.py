@@ -52,7 +52,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "run",
         description="Run a program of setpoints and NC commands through the compensations of a machine.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("program", type=Path, metavar="PROGRAM.csv", help="one row for each cycle")
     parser.add_argument(

@@ -63,7 +63,6 @@ def add_subparser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser
         "sweep",
         description="Run a machine many times over varied lists, inputs and parameters. Exit status: failed runs.",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("spec", type=Path, metavar="SPEC", help="what is varied, and what is kept: TOML or JSON")
     parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="results.parquet or results.csv")

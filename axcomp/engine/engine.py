@@ -44,6 +44,8 @@ class Engine:
         ``structured`` or ``flat``, as the FMU's variables.
     axis_type : str or None
         As in ``read_machine``.
+    allow_outside : sequence of path
+        As in ``read_machine``.
 
     Attributes
     ----------

@@ -93,11 +93,11 @@ class NcControl:
 
     def keep(self) -> tuple[Any, ...]:
         """Return where it reads and what was written, for ``take``."""
-        return self._lists, dict(self._files)
+        return self._lists, self._allow_outside, dict(self._files)
 
     def take(self, kept: tuple[Any, ...]) -> None:
         """Go on where another one stood."""
-        self._lists, files = kept
+        self._lists, self._allow_outside, files = kept
         self._files = dict(files)
 
     def read(self, name: str) -> str | bool:

@@ -114,7 +114,7 @@ def printed(text: str) -> str:
 
 def png(figure: Figure) -> bytes:
     """Return a figure as a PNG file of few colours; the same figure gives the same bytes."""
-    canvas = FigureCanvasAgg(figure)
+    canvas: Any = FigureCanvasAgg(figure)
     canvas.draw()
     shown = Image.fromarray(np.asarray(canvas.buffer_rgba()), "RGBA").convert("RGB")
     few = shown.quantize(COLOURS_MAX, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import shutil
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -87,6 +88,16 @@ def test_a_copy_holds_what_an_update_brought() -> None:
     there: dict[str, Any] = {"X.setpoint": np.linspace(100.0, 0.0, 40)}
     assert twin.run(there)["X.correction"].tolist() == engine.run(there)["X.correction"].tolist()
     assert twin.step(command="#VOLCOMP [ID=0 UPDATE]") == engine.step(command="#VOLCOMP [ID=0 UPDATE]")
+
+
+def test_a_copy_may_read_outside_where_the_first_one_may(tmp_path: Any) -> None:
+    shutil.copytree(models() / "five_axis", tmp_path / "lists")
+    (tmp_path / "lists" / "vol_comp0.csv").rename(tmp_path / "outside.csv")
+    named = tmp_path / "lists" / "vol_comp0.lis"
+    named.write_text(named.read_text(encoding="utf-8").replace("vol_comp0.csv", "../outside.csv"), encoding="utf-8")
+    engine = pickle.loads(pickle.dumps(Engine(tmp_path / "lists", allow_outside=[tmp_path])))
+    assert [one.index for one in engine.machine.volumetric] == [0, 1]
+    engine.step(command="#VOLCOMP [ID=0 UPDATE]")
 
 
 def test_an_engine_says_what_it_holds_and_what_is_not_there() -> None:
