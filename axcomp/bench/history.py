@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from ..saving import write_whole
 from .clock import Sample
 
 SHOWN = 5
@@ -40,8 +41,8 @@ def save(page: Path, samples: Sequence[Sample]) -> None:
     runs.append(
         {"date": now, "machine": f"Python {platform.python_version()}, {platform.machine()}", "figures": figures}
     )
-    _data(page).write_text(json.dumps(runs, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    page.write_text(_page(runs, samples), encoding="utf-8")
+    write_whole(_data(page), json.dumps(runs, indent=1, ensure_ascii=False) + "\n")
+    write_whole(page, _page(runs, samples))
 
 
 def compared(page: Path, samples: Sequence[Sample]) -> list[str]:

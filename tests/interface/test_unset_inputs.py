@@ -32,9 +32,9 @@ def test_inputs_that_are_set_to_0_give_the_bits_of_inputs_that_are_not_set(
     engine = Engine(models() / name)
     inputs = with_causality(engine.variables, "input")
     zeros = engine.run({v.name: moving.get(v.name, np.zeros(300)) for v in inputs})
-    for output, values in unset.values.items():
+    for output, values in unset.items():
         assert values.tobytes() == zeros[output].tobytes(), output
-    assert any(values.any() for output, values in unset.values.items() if output.endswith(".active"))
+    assert any(values.any() for output, values in unset.items() if output.endswith(".active"))
 
 
 def _ahead_not_known(name: str) -> dict[str, np.ndarray]:

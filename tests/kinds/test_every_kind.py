@@ -134,7 +134,7 @@ def acts_the_same_in_python_and_compiled(kind: Kind[Any]) -> None:
     engine = Engine(machine_with(kind))
     rows = [dict(zip(columns, row, strict=True)) for row in zip(*(c.tolist() for c in columns.values()), strict=True)]
     steps = [engine.step(row) for row in rows]
-    for name in result.values:
+    for name in result:
         assert result[name].tolist() == [step[name] for step in steps], name
     assert np.count_nonzero(result[output_of(kind)]) > 50
     assert result[f"S.{kind.name}.active"].all()

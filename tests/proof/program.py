@@ -23,28 +23,9 @@ static AxisOutputs axis_outputs[AXES_HERE];
 static VolumetricState volumetric_states[VOLUMETRICS_HERE + 1];
 static VolumetricInputs volumetric_inputs[VOLUMETRICS_HERE + 1];
 static VolumetricOutputs volumetric_outputs[VOLUMETRICS_HERE + 1];
-static AxisTable other_axes[AXES_HERE];
-static VolumetricTable other_volumetrics[VOLUMETRICS_HERE + 1];
 static State state;
 static Inputs inputs;
 static Outputs outputs;
-static Tables others;
-"""
-
-UPDATE = """\
-        if (any_int) { /* the same lists come again */
-            for (int i = 0; i < AXES_HERE; i++) {
-                others.axis[i] = axcomp_tables.tables.axis[i];
-                if (axcomp_update_error(&axcomp_tables.tables.axis[i], &others.axis[i]) == 0) {
-                    axcomp_adopt_axis(&axcomp_tables.tables.axis[i], pool, &others.axis[i], pool, &state,
-                                      &inputs.axis[i], i);
-                }
-            }
-            for (int k = 0; k < VOLUMETRICS_HERE; k++) {
-                others.volumetric[k] = axcomp_tables.tables.volumetric[k];
-            }
-            axcomp_adopt_volumetrics(&axcomp_tables.tables, &others, &state, &outputs);
-        }
 """
 
 
@@ -63,11 +44,8 @@ def any_input(value: Any, name: str) -> list[str]:
     return [line for field in fields for line in any_input(getattr(value, field), f"{name}.{field}")]
 
 
-def files_of(machine: Machine, *, updates: bool) -> dict[str, str]:
-    """Return ``main.c`` and ``tables.c``: the machine runs for ever, with any inputs in every cycle.
-
-    ``updates``: its lists may come again before any cycle.
-    """
+def files_of(machine: Machine) -> dict[str, str]:
+    """Return ``main.c`` and ``tables.c``: the machine runs for ever, with any inputs in every cycle."""
     compiled = compile_tables(machine)
     tables = compiled.tables
     lines = [
@@ -82,12 +60,10 @@ def files_of(machine: Machine, *, updates: bool) -> dict[str, str]:
         "    state.motion.axis = motions, state.axis = axis_states, state.volumetric = volumetric_states;",
         "    inputs.axis = axis_inputs, inputs.volumetric = volumetric_inputs;",
         "    outputs.axis = axis_outputs, outputs.volumetric = volumetric_outputs;",
-        "    others = axcomp_tables.tables, others.axis = other_axes, others.volumetric = other_volumetrics;",
         *(f"    axis_states[{i}].compensation.friction.line = line_{i};" for i in range(tables.axis_count)),
         "    while (1) {",
         *(f"        {line}" for line in any_input(initial_inputs(tables), "inputs")),
         "        axcomp_cycle(&axcomp_tables.tables, pool, &state, &inputs, &outputs);",
-        *([UPDATE.rstrip()] if updates else []),
         "    }\n}\n",
     ]
     return {"main.c": "\n".join(lines), "tables.c": tables_source(compiled, "proof")}
