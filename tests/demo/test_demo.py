@@ -63,6 +63,7 @@ def test_without_a_compiler_it_is_shown_with_the_python_fmu(tmp_path: Path, monk
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "ziglang" else find_spec(name))
     monkeypatch.delenv("CC", raising=False)
     monkeypatch.setenv("PATH", str(tmp_path / "nothing"))
+    monkeypatch.setattr("axcomp.fmu.native_package.why_not_prebuilt", lambda: "the libraries are old")
     demo = demonstrate(models() / "rotary_table", tmp_path / "out")
     assert "install gcc or clang" in demo.note
     assert "runs in Python" in demo.note
