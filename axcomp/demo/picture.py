@@ -174,7 +174,7 @@ def _summary(ax: Axes, results: Sequence[Outcome]) -> None:
     ax.invert_yaxis()
     ax.set_xlabel(f"largest error [{' or '.join(sorted({result.unit for result in results}))}]")
     ax.grid(axis="x", alpha=0.3)
-    more = " (|: no table removes)" if any(result.beyond for result in results) else ""
+    more = "\n(|: no table removes)" if any(result.beyond for result in results) else ""
     ax.set_title(f"Largest errors, and what is left{more}")
 
 
