@@ -35,6 +35,7 @@ LIBC = {
     "bcmp",
 }
 LIBC |= {"memchr", "open", "stat", "fstat", "close", "fdopen"}
+LIBC |= {"__xstat", "__fxstat"}  # what stat and fstat are in a glibc before 2.33
 ROUNDING = {"fegetround", "fesetround"}
 LIBC |= ROUNDING | {"strlen", "strcmp", "strncmp", "vsnprintf", "dladdr"}
 LIBC |= {f"__{name}_chk" for name in ("memcpy", "memmove", "memset", "vsnprintf", "fread")} | {"__stack_chk_fail"}
