@@ -20,7 +20,7 @@ from axcomp.kernel import tables_fit
 from axcomp.kinds import DataType, ListKind, Parameter
 from axcomp.lists import CATALOGUE, Document, Reading, machine_documents, read_machine
 from axcomp.model import models
-from axcomp.native import CompiledTables, compiled_kernel, run_compiled
+from axcomp.native import CompiledRuntime, compiled_kernel
 from axcomp.runtime import Runtime
 
 sys.path.append(str(Path(__file__).parents[1] / "reference"))
@@ -153,18 +153,18 @@ def _compare(one: Runtime, case: int) -> None:
     if kernel is None:
         return
     source = np.random.default_rng(case)
-    two = Runtime(one.machine)
+    two = CompiledRuntime(one.machine, one.tables.cycle_time, kernel)
     variables = variables_of(one.machine, "structured", 1e-3)
     plain = [v for v in variables if v.axis is not None and v.field.isidentifier() and isinstance(v.start, float)]
     given = with_causality(plain, "input")
     rows = np.ascontiguousarray(source.uniform(-400.0, 400.0, (CYCLES, len(given))))
     odd = source.random(rows.shape) < 0.02
     rows[odd] = source.choice([np.nan, np.inf, 1e300, -1e18, 0.0], int(odd.sum()))
-    run_compiled(kernel, CompiledTables(two.tables, two.pool), two, given, rows, [])
     for row in rows:
-        for variable, value in zip(given, row.tolist(), strict=True):
-            setattr(one.inputs.axis[variable.axis or 0], variable.field, value)
-        one.cycle()
+        for runtime in (one, two):
+            for variable, value in zip(given, row.tolist(), strict=True):
+                setattr(runtime.inputs.axis[variable.axis or 0], variable.field, value)
+            runtime.cycle()
     if one.save() != two.save():
         raise FoundError("Python and C have come to different states")
 
