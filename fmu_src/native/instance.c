@@ -70,6 +70,14 @@ size_t axcomp_block_size(const Shape *shape)
     return 2u * axcomp_state_size(shape) + 3u * axcomp_inputs_size(shape) + axcomp_outputs_size(shape);
 }
 
+void axcomp_copy_arrays(Memory *to, const Memory *from, const Shape *shape)
+{
+    axcomp_copy_state(&to->state, &from->state, shape);
+    axcomp_copy_inputs(&to->inputs, &from->inputs, shape);
+    axcomp_copy_inputs(&to->slopes, &from->slopes, shape);
+    axcomp_copy_outputs(&to->outputs, &from->outputs, shape);
+}
+
 void axcomp_begin_again(Instance *instance)
 {
     Memory *memory = &instance->memory;

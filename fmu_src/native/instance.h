@@ -94,6 +94,9 @@ bool axcomp_give_arrays(Instance *instance);
 void axcomp_place_arrays(Instance *instance);
 size_t axcomp_block_size(const Shape *shape);
 
+/* Copy the arrays of all records, each into its own; `shape`: that of the smaller ones. */
+void axcomp_copy_arrays(Memory *to, const Memory *from, const Shape *shape);
+
 /* Free everything. */
 void axcomp_free_instance(Instance *instance);
 

@@ -126,9 +126,7 @@ static bool make_room(Instance *instance, Lists *lists)
         instance->shape = old;
         return false;
     }
-    axcomp_copy_state(&instance->memory.state, &memory.state, &old);
-    axcomp_copy_inputs(&instance->memory.inputs, &memory.inputs, &old);
-    axcomp_copy_outputs(&instance->memory.outputs, &memory.outputs, &old);
+    axcomp_copy_arrays(&instance->memory, &memory, &old);
     free(block);
     return true;
 }

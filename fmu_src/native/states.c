@@ -109,10 +109,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetFMUstate)(fmi2Component component, fmi2F
     memcpy((char *)saved + offsetof(Saved, memory), memory, PATH - offsetof(Saved, memory) + path);
     Memory *to = &saved->memory;
     place((char *)saved + arrays_at(path), &shape, to);
-    axcomp_copy_state(&to->state, &memory->state, &shape);
-    axcomp_copy_inputs(&to->inputs, &memory->inputs, &shape);
-    axcomp_copy_inputs(&to->slopes, &memory->slopes, &shape);
-    axcomp_copy_outputs(&to->outputs, &memory->outputs, &shape);
+    axcomp_copy_arrays(to, memory, &shape);
     return fmi2OK;
 }
 
@@ -157,10 +154,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetFMUstate)(fmi2Component component, fmi2F
     const Memory *from = &saved->memory;
     memcpy((char *)memory, from, PATH - offsetof(Saved, memory) + path_size((const char *)saved, saved->size));
     axcomp_place_arrays(instance);
-    axcomp_copy_state(&memory->state, &from->state, &shape);
-    axcomp_copy_inputs(&memory->inputs, &from->inputs, &shape);
-    axcomp_copy_inputs(&memory->slopes, &from->slopes, &shape);
-    axcomp_copy_outputs(&memory->outputs, &from->outputs, &shape);
+    axcomp_copy_arrays(memory, from, &shape);
     axcomp_use_lists(instance, axcomp_lists_with(instance, saved->lists));
     instance->stale = true;
     return fmi2OK;

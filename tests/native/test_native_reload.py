@@ -121,6 +121,22 @@ def test_another_delay_of_the_friction_current_has_the_bits_of_the_engine(
     assert found == expected
 
 
+def setpoints_with_a_slope(fmu: Path, path: Path) -> list[float]:
+    with Host(fmu) as host:
+        x = host.variables["X.setpoint"].valueReference
+        host.set({"X.setpoint": 30.0})
+        host.slave.setRealInputDerivatives([x], [1], [20.0])
+        host.set({"update_path": str(path), "reload": True})
+        host.step(duration=0.01)
+        return [host.get("X.setpoint"), host.get("X.corrected_setpoint") - host.get("X.correction")]
+
+
+def test_a_slope_that_was_set_outlasts_lists_that_need_more_memory(native_fmu: Path, tmp_path: Path) -> None:
+    """A longer delay moves everything: the setpoint goes on by 20 mm/s for 10 ms, that of the last cycle by 9 ms."""
+    found = in_child(setpoints_with_a_slope, native_fmu, image(delayed(200), tmp_path))
+    assert found == pytest.approx([30.2, 30.18], abs=1e-12)
+
+
 def resized(kind: str) -> Machine:
     """Three axes, one of them with another ``max_points``, all of them with twice the pitch errors."""
     axes = list(three_axes(2.0).axes)
