@@ -6,13 +6,14 @@ crosstalk the adaptation axes; friction needs nothing (semantics §5–§9, §12
 
 from __future__ import annotations
 
-from .records import ERROR_SWITCH, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs
+from .records import ERROR_SWITCH, AxisInputs, AxisOutputs, AxisState, AxisTable, Inputs, State
 from .switching import SwitchTable, advance_switch, begin_switch, heed_command, is_command
 
 
 def activate_if_stirred(
     table: AxisTable,
     axis: AxisState,
+    state: State,
     inputs: Inputs,
     given: AxisInputs,
     out: AxisOutputs,
@@ -31,11 +32,11 @@ def activate_if_stirred(
         if given.wanted[kind] != axis.switching[kind].wanted and table.switching[kind].configured:
             stirred = True
     if stirred:
-        activate(table, axis, inputs, given, out, released, moving)
+        activate(table, axis, state, given, out, released, moving)
 
 
 def activate(
-    table: AxisTable, axis: AxisState, inputs: Inputs, given: AxisInputs, out: AxisOutputs, released: bool, moving: bool
+    table: AxisTable, axis: AxisState, state: State, given: AxisInputs, out: AxisOutputs, released: bool, moving: bool
 ) -> None:
     """Advance the switches of all compensations of an axis by one cycle; the first cycle sets them.
 
@@ -44,27 +45,27 @@ def activate(
     axis.settled = axis.started and not axis.held
     for k in range(table.kinds):
         kind = table.kind[k]
-        state = axis.switching[kind]
+        own = axis.switching[kind]
         if table.switching[kind].configured:
-            ready = is_referenced(table.switching[kind], inputs)
-            if given.wanted[kind] != state.wanted and not is_command(given.wanted[kind]):
+            ready = is_referenced(table.switching[kind], state)
+            if given.wanted[kind] != own.wanted and not is_command(given.wanted[kind]):
                 axis.error = ERROR_SWITCH
             if not axis.started:
-                begin_switch(table.switching[kind], state, given.wanted[kind], ready, released)
+                begin_switch(table.switching[kind], own, given.wanted[kind], ready, released)
             else:
-                heed_command(table.switching[kind], state, given.wanted[kind], ready, released, given.no_move)
+                heed_command(table.switching[kind], own, given.wanted[kind], ready, released, given.no_move)
                 if not axis.held:
-                    settled = advance_switch(table.switching[kind], state, ready, moving)
+                    settled = advance_switch(table.switching[kind], own, ready, moving)
                     axis.settled = axis.settled and settled
         elif not axis.started:
-            state.wanted = given.wanted[kind]
+            own.wanted = given.wanted[kind]
         if not axis.held:
-            out.active[kind] = state.step > 0
+            out.active[kind] = own.step > 0
 
 
-def is_referenced(table: SwitchTable, inputs: Inputs) -> bool:
+def is_referenced(table: SwitchTable, state: State) -> bool:
     """Tell whether the axes that a compensation needs have their reference."""
     for k in range(table.needs):
-        if inputs.axis[table.need[k]].unreferenced:
+        if state.axis[table.need[k]].unreferenced:
             return False
     return True

@@ -5,6 +5,7 @@ Only a volumetric compensation switches off, without motion; an automatic one th
 
 from __future__ import annotations
 
+from .activation import is_referenced
 from .compensations import KINDS, adopt_compensation, move_compensation, settled_value
 from .record import Vec
 from .records import ERROR_UPDATE, AxisInputs, AxisTable, Outputs, State, Tables
@@ -70,12 +71,7 @@ def adopt_axis(
 
 def comes_on_at_once(table: SwitchTable, own: SwitchState, state: State) -> bool:
     """Tell whether a table that comes will be on in one step, so that its values have to come in softly."""
-    if not (table.configured and table.cycles == 1 and own.step == 0 and own.granted):
-        return False
-    for k in range(table.needs):
-        if state.axis[table.need[k]].unreferenced:
-            return False
-    return True
+    return table.cycles == 1 and own.step == 0 and own.granted and is_referenced(table, state)
 
 
 def keep_declared(before: AxisTable, after: AxisTable) -> None:

@@ -39,7 +39,7 @@ def cycle(tables: Tables, pool: Vec, state: State, inputs: Inputs, outputs: Outp
             axis.error = 0
         given = inputs.axis[i]
         motion = state.motion.axis[i]
-        activate_if_stirred(table, axis, inputs, given, out, motion.moving, references_changed)
+        activate_if_stirred(table, axis, state, inputs, given, out, motion.moving, references_changed)
         if axis.held:
             out.error = ERROR_INPUT
         else:

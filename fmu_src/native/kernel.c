@@ -2139,10 +2139,10 @@ static void adopt_shift(int32_t before, int32_t after, ShiftState *state)
  */
 
 /* Tell whether the axes that a compensation needs have their reference. */
-static bool is_referenced(const SwitchTable *table, const Inputs *inputs)
+static bool is_referenced(const SwitchTable *table, const State *state)
 {
     for (int32_t k = 0; k < table->needs; k++) {
-        if (inputs->axis[table->need[k]].unreferenced) {
+        if (state->axis[table->need[k]].unreferenced) {
             return false;
         }
     }
@@ -2153,34 +2153,34 @@ static bool is_referenced(const SwitchTable *table, const Inputs *inputs)
  *
  * While the axis is held its switches stay where they are, but commands are heard: a reset is never missed.
  */
-static void activate(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
+static void activate(const AxisTable *table, AxisState *axis, const State *state, const AxisInputs *given,
         AxisOutputs *out, bool released, bool moving)
 {
     axis->settled = axis->started && !axis->held;
     for (int32_t k = 0, k_end = table->kinds; k < k_end; k++) {
         int32_t kind = table->kind[k];
-        SwitchState *state = &axis->switching[kind];
+        SwitchState *own = &axis->switching[kind];
         if (table->switching[kind].configured) {
-            bool ready = is_referenced(&table->switching[kind], inputs);
-            if (given->wanted[kind] != state->wanted && !is_command(given->wanted[kind])) {
+            bool ready = is_referenced(&table->switching[kind], state);
+            if (given->wanted[kind] != own->wanted && !is_command(given->wanted[kind])) {
                 axis->error = ERROR_SWITCH;
             }
             if (!axis->started) {
-                begin_switch(&table->switching[kind], state, given->wanted[kind], ready, released);
+                begin_switch(&table->switching[kind], own, given->wanted[kind], ready, released);
             } else {
-                heed_command(&table->switching[kind], state, given->wanted[kind], ready, released, given->no_move);
+                heed_command(&table->switching[kind], own, given->wanted[kind], ready, released, given->no_move);
                 if (!axis->held) {
-                    bool settled = advance_switch(&table->switching[kind], state, ready, moving);
+                    bool settled = advance_switch(&table->switching[kind], own, ready, moving);
                     axis->settled = axis->settled && settled;
                 }
             }
         } else if (!axis->started) {
-            state->wanted = given->wanted[kind];
+            own->wanted = given->wanted[kind];
         } else {
             /* nothing */
         }
         if (!axis->held) {
-            out->active[kind] = state->step > 0;
+            out->active[kind] = own->step > 0;
         }
     }
 }
@@ -2189,8 +2189,8 @@ static void activate(const AxisTable *table, AxisState *axis, const Inputs *inpu
  *
  * Manual compensations go off by reset, program end, or the edge with which the axis is released.
  */
-static void activate_if_stirred(const AxisTable *table, AxisState *axis, const Inputs *inputs, const AxisInputs *given,
-        AxisOutputs *out, bool moving, bool references_changed)
+static void activate_if_stirred(const AxisTable *table, AxisState *axis, const State *state, const Inputs *inputs,
+        const AxisInputs *given, AxisOutputs *out, bool moving, bool references_changed)
 {
     bool released = inputs->reset || inputs->program_end || (given->released && !axis->released);
     axis->released = given->released;
@@ -2202,7 +2202,7 @@ static void activate_if_stirred(const AxisTable *table, AxisState *axis, const I
         }
     }
     if (stirred) {
-        activate(table, axis, inputs, given, out, released, moving);
+        activate(table, axis, state, given, out, released, moving);
     }
 }
 
@@ -3497,7 +3497,7 @@ void axcomp_cycle(const Tables *tables, const double *pool, State *state, const 
         }
         const AxisInputs *given = &inputs->axis[i];
         const AxisMotion *motion = &state->motion.axis[i];
-        activate_if_stirred(table, axis, inputs, given, out, motion->moving, references_changed);
+        activate_if_stirred(table, axis, state, inputs, given, out, motion->moving, references_changed);
         if (axis->held) {
             out->error = ERROR_INPUT;
         } else {
@@ -3545,15 +3545,7 @@ int32_t axcomp_update_error(const AxisTable *before, const AxisTable *after)
 /* Tell whether a table that comes will be on in one step, so that its values have to come in softly. */
 static bool comes_on_at_once(const SwitchTable *table, const SwitchState *own, const State *state)
 {
-    if (!(table->configured && table->cycles == 1 && own->step == 0 && own->granted)) {
-        return false;
-    }
-    for (int32_t k = 0; k < table->needs; k++) {
-        if (state->axis[table->need[k]].unreferenced) {
-            return false;
-        }
-    }
-    return true;
+    return table->cycles == 1 && own->step == 0 && own->granted && is_referenced(table, state);
 }
 
 /* Let what an axis activated at the start count for the next update too, and what was dropped go on running out. */
