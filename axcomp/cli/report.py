@@ -12,7 +12,7 @@ from ..analysis.judgement import Evidence
 from ..lists import Reading, read_machine
 from ..measurement import evaluate_robustly
 from ..plot import NoPlotlyError
-from ..report import REPEATS, ProtocolFields, make_protocol, make_report
+from ..report import REPEATS, Protocol, ProtocolFields, Report, make_protocol, make_report
 from ..saving import write_whole
 from .judgement_options import add_judgement_options, evidence_of
 from .lists import STATUS_MAX, add_lists_command, failed
@@ -57,8 +57,6 @@ def _do_report(options: argparse.Namespace) -> int:
         return failed("report", f"there is no machine in {options.path}")
     if options.output is None:
         options.output = Path("protocol.html" if options.protocol else "report.html")
-    if not options.output.parent.is_dir():
-        return failed("report", f"there is no folder {options.output.parent}")
     evidence = evidence_of(options, reading.machine)
     if options.protocol:
         return _write_protocol(options, reading, evidence)
@@ -70,14 +68,7 @@ def _do_report(options: argparse.Namespace) -> int:
         html = replace(report, turning=options.interactive).html()
     except NoPlotlyError as error:
         return failed("report", str(error))
-    write_whole(options.output, html)
-    for note in report.notes:
-        print(f"axcomp report: {note}", file=sys.stderr)
-    if options.format == "json":
-        print(json.dumps({"output": str(options.output), **report.to_dict()}, indent=2, ensure_ascii=False))
-    else:
-        print(options.output)
-    return min(len(report.notes), STATUS_MAX)
+    return _tell(options, html, report)
 
 
 def _write_protocol(options: argparse.Namespace, reading: Reading, evidence: Evidence) -> int:
@@ -89,11 +80,16 @@ def _write_protocol(options: argparse.Namespace, reading: Reading, evidence: Evi
         return failed("report", str(error))
     evaluations = [evaluate_robustly(one) for one in evidence.readings]
     protocol = make_protocol(reading, evaluations, found, evidence.faults)
-    write_whole(options.output, protocol.html())
-    for note in protocol.notes:
+    return _tell(options, protocol.html(), protocol)
+
+
+def _tell(options: argparse.Namespace, html: str, made: Report | Protocol) -> int:
+    """Write a page and say where it is and what was noted; return the exit status."""
+    write_whole(options.output, html)
+    for note in made.notes:
         print(f"axcomp report: {note}", file=sys.stderr)
     if options.format == "json":
-        print(json.dumps({"output": str(options.output), **protocol.to_dict()}, indent=2, ensure_ascii=False))
+        print(json.dumps({"output": str(options.output), **made.to_dict()}, indent=2, ensure_ascii=False))
     else:
         print(options.output)
-    return min(len(protocol.notes), STATUS_MAX)
+    return min(len(made.notes), STATUS_MAX)

@@ -119,8 +119,6 @@ def _fault(args: argparse.Namespace) -> str:
     """Return what is wrong with the command line."""
     if args.output.suffix.lower() not in SUFFIXES:
         return f"{args.output} must end in {' or '.join(SUFFIXES)}"
-    if not args.output.parent.is_dir():
-        return f"{args.output.parent} is no folder"
     if args.workers is not None and args.workers < 1:
         return "there must be at least one worker"
     if args.plot is not None and (args.x is None or args.y is None):

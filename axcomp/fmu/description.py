@@ -76,6 +76,23 @@ class Description:
         """What made the FMU."""
         return f"axcomp {self.version}"
 
+    def root(self, fmi: str, **token: str) -> Element:
+        """Return the root of a modelDescription.xml; ``token``: the attribute that tells one FMU from another."""
+        attributes = {
+            "fmiVersion": fmi,
+            "modelName": self.name,
+            **token,
+            "description": self.text,
+            "author": AUTHOR,
+            "version": self.version,
+            "copyright": f"Copyright {AUTHOR}",
+            "license": "MIT",
+            "generationTool": self.tool,
+            "generationDateAndTime": self.generated,
+            "variableNamingConvention": self.naming,
+        }
+        return Element("fmiModelDescription", attributes)
+
 
 CAPABILITIES = {
     "canHandleVariableCommunicationStepSize": True,
@@ -87,20 +104,7 @@ CAPABILITIES = {
 
 def model_description(description: Description, variables: Sequence[Variable], guid: str) -> bytes:
     """Return modelDescription.xml, the same bytes for the same arguments."""
-    root = Element(
-        "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=description.name,
-        guid=guid,
-        description=description.text,
-        author=AUTHOR,
-        version=description.version,
-        generationTool=description.tool,
-        copyright=f"Copyright {AUTHOR}",
-        license="MIT",
-        generationDateAndTime=description.generated,
-        variableNamingConvention=description.naming,
-    )
+    root = description.root("2.0", guid=guid)
     capabilities = {name: text_of(value) for name, value in {**CAPABILITIES, **description.capabilities}.items()}
     co_simulation = SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
     if description.source_files:

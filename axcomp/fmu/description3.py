@@ -6,16 +6,7 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 from ..interface import TIME_REFERENCE, ArrayVariable, Value, Variable, by_name, with_causality
-from .description import (
-    AUTHOR,
-    Description,
-    add_experiment,
-    add_log_categories,
-    add_units,
-    document,
-    quantity_of,
-    text_of,
-)
+from .description import Description, add_experiment, add_log_categories, add_units, document, quantity_of, text_of
 
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "String": "String"}
 """Type in FMI 2.0 → in FMI 3.0."""
@@ -32,20 +23,7 @@ def model_description_3(
     description: Description, variables: Sequence[Variable], arrays: Sequence[ArrayVariable], token: str
 ) -> bytes:
     """Return modelDescription.xml, the same bytes for the same arguments."""
-    root = Element(
-        "fmiModelDescription",
-        fmiVersion="3.0",
-        modelName=description.name,
-        instantiationToken=token,
-        description=description.text,
-        author=AUTHOR,
-        version=description.version,
-        copyright=f"Copyright {AUTHOR}",
-        license="MIT",
-        generationTool=description.tool,
-        generationDateAndTime=description.generated,
-        variableNamingConvention=description.naming,
-    )
+    root = description.root("3.0", instantiationToken=token)
     capabilities = {name: text_of(value) for name, value in CAPABILITIES.items()}
     SubElement(root, "CoSimulation", {"modelIdentifier": description.name, **capabilities})
     units = {variable.unit for variable in variables} | {array.unit for array in arrays}

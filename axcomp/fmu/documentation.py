@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from html import escape
 from pathlib import Path
-from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from ..interface import Variable
@@ -14,7 +13,7 @@ from ..kinds import kind_of
 from ..lists import Finding
 from ..model import Curve, Grid, Machine, Scatter, Volumetric, fmu_sources, licence
 from .archive import file_bytes
-from .description import Description
+from .description import Description, document
 
 ROWS_MAX = 2000
 """Rows that are shown of a table."""
@@ -67,8 +66,7 @@ def terminals(variables: Sequence[Variable]) -> bytes:
             )
     if not len(every):
         root.remove(every)
-    ElementTree.indent(root)
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'.encode()
+    return document(root)
 
 
 def _page(

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from ..model.face import face
 
 if TYPE_CHECKING:
-    from .protocol import ProtocolFields as ProtocolFields, make_protocol as make_protocol
-    from .report import REPEATS as REPEATS, make_report as make_report
+    from .protocol import Protocol as Protocol, ProtocolFields as ProtocolFields, make_protocol as make_protocol
+    from .report import REPEATS as REPEATS, Report as Report, make_report as make_report
 else:
     __all__, __getattr__, __dir__ = face(
-        __name__, protocol="ProtocolFields make_protocol", report="REPEATS make_report"
+        __name__, protocol="Protocol ProtocolFields make_protocol", report="REPEATS Report make_report"
     )
