@@ -10,7 +10,7 @@ from ..model import fmu_sources
 _COMMON = ("fmu", "instance", "kernel", "memory", "model_exchange", "places", "states", "values")
 _HOSTED = ("heap", "image", "lists", "messages", "records", "reload", "resource", "run")
 SOURCES = tuple(f"{part}.c" for part in (*_COMMON, "embedded"))
-HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h")
+HEADERS = ("fmi2.h", "image.h", "instance.h", "kernel.h", "layout.h", "memory.h", "places.h", "spot.h")
 """Of an FMU, in ``fmu_src/native``; its tables are among its sources, and ``config.h`` is another one there."""
 
 _THIRD = ("fmi3", "refused3", "tuning", "values3")

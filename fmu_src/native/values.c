@@ -3,42 +3,12 @@
 #include <string.h>
 
 #include "fmi2.h"
-#include "instance.h"
-#include "places.h"
+#include "spot.h"
 
 enum {
     WITH_INPUTS = INSTANTIATED | INITIALIZATION | STEPPING | EVENT,
     WITH_VALUES = INITIALIZATION | STEPPING | EVENT | TERMINATED
 };
-
-/* Where the variables of a block of value references are. */
-typedef struct {
-    unsigned block;
-    const Place *places;
-    char *results;  /* what its outputs are in */
-    char *given;    /* and the rest */
-} Spot;
-
-static Spot spot_of(Instance *instance, unsigned block)
-{
-    static const Place NONE[PLACES] = {{0, 0, 0}};
-    Memory *memory = &instance->memory;
-    Spot spot = {block, NONE, (char *)memory, (char *)memory};
-    unsigned axis = block - AXIS_BLOCK;
-    unsigned volumetric = block - VOLUMETRIC_BLOCK;
-    if (block == MACHINE_BLOCK) {
-        spot.places = axcomp_machine_places;
-    } else if (axis < (unsigned)instance->lists->tables.axis_count) {
-        spot.places = axcomp_axis_places;
-        spot.results = (char *)&memory->outputs.axis[axis];
-        spot.given = (char *)&memory->inputs.axis[axis];
-    } else if (volumetric < (unsigned)instance->lists->tables.volumetrics) {
-        spot.places = axcomp_volumetric_places;
-        spot.results = (char *)&memory->outputs.volumetric[volumetric];
-        spot.given = (char *)&memory->inputs.volumetric[volumetric];
-    }
-    return spot;
-}
 
 static fmi2Status say_unknown(const Instance *instance, fmi2ValueReference reference)
 {
@@ -66,13 +36,13 @@ static bool is_real(const Instance *instance, const Place *place)
  * after the other. */
 #define FOR_EACH(LETTER, DO)                                                                                         \
     for (size_t i = 0; i < count;) {                                                                                 \
-        const Spot spot = spot_of(instance, references[i] / PLACES);                                                 \
+        const Spot spot = axcomp_spot_of(&instance->memory, &instance->lists->tables, references[i] / PLACES);       \
         do {                                                                                                         \
             const Place *place = &spot.places[references[i] % PLACES];                                               \
             if (place->type != (LETTER) && !((LETTER) == 'r' && is_real(instance, place))) {                         \
                 return say_unknown(instance, references[i]);                                                         \
             }                                                                                                        \
-            void *at = (place->causality == 'o' ? spot.results : spot.given) + place->offset;                        \
+            void *at = axcomp_at(&spot, place);                                                                      \
             DO                                                                                                       \
             i++;                                                                                                     \
         } while (i < count && references[i] / PLACES == spot.block);                                                 \

@@ -1,9 +1,7 @@
 /* The kernel in WebAssembly: a machine is made of an image, and its variables are columns of numbers. */
 #include <stdlib.h>
 
-#include "instance.h"
-#include "layout.h"
-#include "places.h"
+#include "spot.h"
 
 #define EXPORTED __attribute__((visibility("default")))
 
@@ -68,24 +66,9 @@ EXPORTED Machine *axcomp_open(const unsigned char *image, size_t size)
 /* Find the variable of a value reference. */
 EXPORTED void axcomp_find(Machine *machine, uint32_t reference, Field *field)
 {
-    static const Place NONE = {0, 0, 0};
-    Memory *memory = &machine->memory;
-    uint32_t block = reference / PLACES, k = reference % PLACES;
-    uint32_t axis = block - AXIS_BLOCK, volumetric = block - VOLUMETRIC_BLOCK;
-    const Place *place = &NONE;
-    char *given = (char *)memory, *results = given;
-    if (block == MACHINE_BLOCK) {
-        place = &axcomp_machine_places[k];
-    } else if (axis < (uint32_t)machine->lists.tables.axis_count) {
-        place = &axcomp_axis_places[k];
-        given = (char *)&memory->inputs.axis[axis];
-        results = (char *)&memory->outputs.axis[axis];
-    } else if (volumetric < (uint32_t)machine->lists.tables.volumetrics) {
-        place = &axcomp_volumetric_places[k];
-        given = (char *)&memory->inputs.volumetric[volumetric];
-        results = (char *)&memory->outputs.volumetric[volumetric];
-    }
-    field->at = (place->causality == 'o' ? results : given) + place->offset;
+    const Spot spot = axcomp_spot_of(&machine->memory, &machine->lists.tables, reference / PLACES);
+    const Place *place = &spot.places[reference % PLACES];
+    field->at = axcomp_at(&spot, place);
     field->type = place->type;
 }
 
