@@ -2,35 +2,20 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
-import fmpy
 from fmpy.fmi3 import FMU3Slave
+from fmu_host import CYCLE, Unpacked
 
-CYCLE = 0.001
 
-
-class Host3:
-    """One instance of an FMU, its variables by name."""
+class Host3(Unpacked):
+    """An instance of FMI 3.0."""
 
     def __init__(self, fmu: Path, *, event_mode: bool = True, folder: Path | None = None) -> None:
-        self.own_folder = folder is None
-        self.folder = Path(fmpy.extract(fmu, tempfile.mkdtemp())) if folder is None else folder
-        self.description = fmpy.read_model_description(self.folder)
-        self.variables = {variable.name: variable for variable in self.description.modelVariables}
-        self.messages: list[tuple[int, str, str]] = []
+        super().__init__(fmu, FMU3Slave, folder, 0.0)
         self.event_mode = event_mode
-        self.time = 0.0
-        self.slave = FMU3Slave(
-            guid=self.description.guid,
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            unzipDirectory=str(self.folder),
-            instanceName="test",
-        )
         self.slave.instantiate(loggingOn=True, eventModeUsed=event_mode, logMessage=self.log)
         self.slave.enterInitializationMode(startTime=0.0)
 
@@ -55,9 +40,6 @@ class Host3:
         values = getattr(self.slave, f"get{variable.type}")([variable.valueReference], size)
         return list(values) if variable.dimensions else values[0]
 
-    def outputs(self) -> dict[str, Any]:
-        return {name: self.get(name) for name, variable in self.variables.items() if variable.causality == "output"}
-
     def event(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Set inputs in event mode, in which the instance is after initialization, and return the outputs then."""
         self.set(values)
@@ -74,15 +56,3 @@ class Host3:
         if self.event_mode:
             self.slave.enterEventMode()
         return outputs
-
-    def close(self) -> None:
-        self.slave.terminate()
-        self.slave.freeInstance()
-        if self.own_folder:
-            shutil.rmtree(self.folder, ignore_errors=True)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()

@@ -35,8 +35,44 @@ def in_child(function: Callable[Parameters, Result], *args: Parameters.args, **k
         raise
 
 
-class Host:
+class Unpacked:
     """One instance of an FMU, its variables by name. ``folder``: where it is unpacked already."""
+
+    def __init__(self, fmu: Path, slave: type[Any], folder: str | Path | None, start: float) -> None:
+        self.own_folder = folder is None
+        self.folder = Path(fmpy.extract(fmu, tempfile.mkdtemp()) if folder is None else folder)
+        self.description = fmpy.read_model_description(self.folder)
+        self.variables = {variable.name: variable for variable in self.description.modelVariables}
+        self.messages: list[tuple[int, str, str]] = []
+        self.time = start
+        self.slave = slave(
+            guid=self.description.guid,
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            unzipDirectory=str(self.folder),
+            instanceName="test",
+        )
+
+    def get(self, name: str) -> Any:
+        raise NotImplementedError
+
+    def outputs(self) -> dict[str, Any]:
+        return {name: self.get(name) for name, variable in self.variables.items() if variable.causality == "output"}
+
+    def close(self) -> None:
+        self.slave.terminate()
+        self.slave.freeInstance()
+        if self.own_folder:
+            shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Host(Unpacked):
+    """An instance of FMI 2.0."""
 
     def __init__(
         self,
@@ -46,18 +82,7 @@ class Host:
         start: float = 0.0,
         parameters: Mapping[str, Any] | None = None,
     ) -> None:
-        self.own_folder = folder is None
-        self.folder = Path(fmpy.extract(fmu, tempfile.mkdtemp()) if folder is None else folder)
-        self.description = fmpy.read_model_description(self.folder)
-        self.variables = {variable.name: variable for variable in self.description.modelVariables}
-        self.messages: list[tuple[int, str, str]] = []
-        self.time = start
-        self.slave = FMU2Slave(
-            guid=self.description.guid,
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            unzipDirectory=str(self.folder),
-            instanceName="test",
-        )
+        super().__init__(fmu, FMU2Slave, folder, start)
         self.callbacks = fmi2CallbackFunctions()
         self.callbacks.logger = fmi2CallbackLoggerTYPE(self.log)
         self.callbacks.allocateMemory = defaultCallbacks.allocateMemory
@@ -84,9 +109,6 @@ class Host:
         (value,) = getattr(self.slave, f"get{variable.type}")([variable.valueReference])
         return bool(value) if variable.type == "Boolean" else value
 
-    def outputs(self) -> dict[str, Any]:
-        return {name: self.get(name) for name, variable in self.variables.items() if variable.causality == "output"}
-
     def step(self, values: Mapping[str, Any] | None = None, duration: float = CYCLE) -> dict[str, Any]:
         self.set(values or {})
         self.slave.doStep(self.time, duration)
@@ -95,15 +117,3 @@ class Host:
 
     def run(self, rows: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
         return [self.step(row) for row in rows]
-
-    def close(self) -> None:
-        self.slave.terminate()
-        self.slave.freeInstance()
-        if self.own_folder:
-            shutil.rmtree(self.folder, ignore_errors=True)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
