@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 from frozen import SEVERITIES
-from linting import SCREW, Write
+from linting import Write
+from small_lists import LEADSCREW
 
 from axcomp.cli import main
 from axcomp.lint import PAGE, help_address, page, pages
@@ -52,6 +53,6 @@ def test_the_page_travels_in_the_wheel() -> None:
 
 
 def test_a_binary_file_is_found(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
-    write({"achskw1.lis": SCREW.encode() + b"\0"})
+    write({"achskw1.lis": LEADSCREW.encode() + b"\0"})
     assert main(["check", "achskw1.lis", "--format", "json"]) == 1
     assert [one["code"] for one in json.loads(capsys.readouterr().out)["findings"]] == ["AXC-BINARY"]

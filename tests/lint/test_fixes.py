@@ -8,7 +8,8 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import given, settings, strategies as st
-from linting import SCREW, Write
+from linting import Write
+from small_lists import LEADSCREW
 from strategies import machines
 
 from axcomp.cli import main
@@ -55,14 +56,14 @@ def lines(path: str) -> list[str]:
     ("before", "changed", "code"),
     [
         (
-            SCREW.replace("interval 1", "intervall    1"),
+            LEADSCREW.replace("interval 1", "intervall    1"),
             {"kw.ssfk.intervall    100000": "kw.ssfk.interval     100000"},
             "AXC-TYPO",
         ),
-        (SCREW.replace("kw_nr_max", "kw_nr_mx"), {"kw.ssfk.kw_nr_mx 3": "kw.ssfk.kw_nr_max 3"}, "AXC-UNKNOWN"),
-        (f"{SCREW}kw.ssfk.table[ 2].pos 7 # new\n", {"kw.ssfk.table[2].pos 3": None}, "AXC-TWICE"),
-        (f"kw.ssfk.table[2].pos 1 # old\n{SCREW}", {"kw.ssfk.table[2].pos 1 # old": "# old"}, "AXC-TWICE"),
-        (f"kw.ssfk.table[2].pos 1 old\n{SCREW}", {"kw.ssfk.table[2].pos 1 old": "# old"}, "AXC-TWICE"),
+        (LEADSCREW.replace("kw_nr_max", "kw_nr_mx"), {"kw.ssfk.kw_nr_mx 3": "kw.ssfk.kw_nr_max 3"}, "AXC-UNKNOWN"),
+        (f"{LEADSCREW}kw.ssfk.table[ 2].pos 7 # new\n", {"kw.ssfk.table[2].pos 3": None}, "AXC-TWICE"),
+        (f"kw.ssfk.table[2].pos 1 # old\n{LEADSCREW}", {"kw.ssfk.table[2].pos 1 # old": "# old"}, "AXC-TWICE"),
+        (f"kw.ssfk.table[2].pos 1 old\n{LEADSCREW}", {"kw.ssfk.table[2].pos 1 old": "# old"}, "AXC-TWICE"),
     ],
 )
 def test_a_line_is_mended_where_it_stands(
@@ -78,7 +79,7 @@ def test_a_line_is_mended_where_it_stands(
 @pytest.mark.parametrize(
     ("name", "text", "added"),
     [
-        ("leadscrew", SCREW.replace("kw.ssfk.kw_nr_max 3\n", ""), {"kw.ssfk.kw_nr_max": "3"}),
+        ("leadscrew", LEADSCREW.replace("kw.ssfk.kw_nr_max 3\n", ""), {"kw.ssfk.kw_nr_max": "3"}),
         ("cross", CROSS.replace("kw.crosscomp.last_index 2\n", ""), {"kw.crosscomp.last_index": "2"}),
         ("plane", PLANE, {"kw.crosscomp2.last_index_master1": "2", "kw.crosscomp2.last_index_master2": "1"}),
         ("friction", FRICTION, {"frict_comp.table_entries": "2"}),
@@ -96,8 +97,8 @@ def test_the_number_of_lists_is_counted(write: Write) -> None:
     write(
         {
             "hochlauf.lis": "# all\nachs_kw[0] a.lis\nachs_kw[1] b.lis\n",
-            "a.lis": SCREW,
-            "b.lis": SCREW.replace("nr 1", "nr 2"),
+            "a.lis": LEADSCREW,
+            "b.lis": LEADSCREW.replace("nr 1", "nr 2"),
         }
     )
     assert main(["check", ".", "--fix"]) == 0
@@ -123,7 +124,7 @@ def test_rows_are_sorted_with_their_comments(write: Write) -> None:
 
 
 def test_a_file_gets_its_name(write: Write) -> None:
-    write({"hochlauf.lis": 'zahl_kw 1\nachs_kw[0] "SUB\\KW.LIS" (the only one)\n', "sub/kw.lis": SCREW})
+    write({"hochlauf.lis": 'zahl_kw 1\nachs_kw[0] "SUB\\KW.LIS" (the only one)\n', "sub/kw.lis": LEADSCREW})
     assert main(["check", ".", "--fix"]) == 0
     assert lines("hochlauf.lis")[1].startswith("achs_kw[0] sub/kw.lis")
     assert lines("hochlauf.lis")[1].endswith("(the only one)")
@@ -132,15 +133,15 @@ def test_a_file_gets_its_name(write: Write) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        SCREW.replace("pos 2", "pos x"),
-        SCREW.replace("kw.ssfk.table[1].pos 2\n", ""),
+        LEADSCREW.replace("pos 2", "pos x"),
+        LEADSCREW.replace("kw.ssfk.table[1].pos 2\n", ""),
         CROSS.replace("setpoint 0", "setpoint 1000"),
         CROSS.replace("last_index 2", "last_index 1").replace(
             "kw.crosscomp.table[1].setpoint 0 ", "kw.crosscomp.table[1].setpoint 5 "
         ),
         FRICTION.replace("in 1000", "in -1000").replace("mode 3", "mode 3\nfrict_comp.table_entries 2"),
-        f"{SCREW}kw.ssfk.mod 1\n",
-        f"{SCREW}kw.ssfk.intervals 1\nkw.ssfk.interval 2 /* goes\non */\n",
+        f"{LEADSCREW}kw.ssfk.mod 1\n",
+        f"{LEADSCREW}kw.ssfk.intervals 1\nkw.ssfk.interval 2 /* goes\non */\n",
     ],
 )
 def test_what_needs_a_decision_is_left(text: str, write: Write) -> None:
@@ -151,14 +152,14 @@ def test_what_needs_a_decision_is_left(text: str, write: Write) -> None:
 
 
 def test_only_what_is_told_is_mended(write: Write) -> None:
-    text = f"{SCREW}kw.ssfk.table[2].pos 7\n"
+    text = f"{LEADSCREW}kw.ssfk.table[2].pos 7\n"
     write({"achskw1.lis": text, "axcomp.toml": 'ignore = ["AXC-TWICE"]\n'})
     assert main(["check", ".", "--fix"]) == 0
     assert Path("achskw1.lis").read_text() == text
 
 
 def test_a_diff_is_shown_and_nothing_written(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
-    text = SCREW.replace("interval", "intervall")
+    text = LEADSCREW.replace("interval", "intervall")
     write({"achskw1.lis": text})
     assert main(["check", ".", "--diff"]) == 1
     told = capsys.readouterr().out.splitlines()
@@ -167,13 +168,13 @@ def test_a_diff_is_shown_and_nothing_written(write: Write, capsys: pytest.Captur
         "+kw.ssfk.interval  100000",
     ]
     assert Path("achskw1.lis").read_text() == text
-    write({"achskw1.lis": SCREW})
+    write({"achskw1.lis": LEADSCREW})
     assert main(["check", ".", "--diff"]) == 0
 
 
 @pytest.mark.parametrize(("codec", "newline"), [("latin-1", "\r\n"), ("utf-16", "\n"), ("utf-8-sig", "\r\n")])
 def test_encoding_and_line_ends_stay(codec: str, newline: str, write: Write) -> None:
-    text = SCREW.replace("interval 100000", "intervall 100000 # größer") + "# ä\n"
+    text = LEADSCREW.replace("interval 100000", "intervall 100000 # größer") + "# ä\n"
     write({"achskw1.lis": text.replace("\n", newline).encode(codec)})
     assert main(["check", "achskw1.lis", "--fix"]) == 0
     expected = text.replace("intervall 100000", "interval  100000").replace("\n", newline)
@@ -182,7 +183,7 @@ def test_encoding_and_line_ends_stay(codec: str, newline: str, write: Write) -> 
 
 def test_300_faults_are_mended(write: Write) -> None:
     rows = "".join(f"kw.ssfk.table[{i}].poss {i}\n" for i in range(300))
-    write({"achskw1.lis": SCREW.partition("kw.ssfk.table")[0].replace("max 3", "max 300") + rows})
+    write({"achskw1.lis": LEADSCREW.partition("kw.ssfk.table")[0].replace("max 3", "max 300") + rows})
     assert main(["check", ".", "--fix"]) == 0
     leadscrew = read_machine("achskw1.lis").machine.axes[0].leadscrew
     assert leadscrew is not None

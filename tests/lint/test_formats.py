@@ -14,15 +14,19 @@ from xml.etree import ElementTree
 import pytest
 from frozen import SEVERITIES
 from jsonschema import Draft202012Validator
-from linting import SCREW, Write
+from linting import Write
 from pydantic_sarif.model import StaticAnalysisResultsFormatSarifVersion210JsonSchema as Sarif
+from small_lists import LEADSCREW
 
 from axcomp.cli import main
 from axcomp.lint import Style
 
 ROOT = Path(__file__).parents[2]
 Printed = Callable[..., str]
-FAULTY = {"ä b/achskw1.lis": SCREW.replace("pos 2", "pos x") + "\tkw.ssfk.table[2].pos 4\n", "good/achskw1.lis": SCREW}
+FAULTY = {
+    "ä b/achskw1.lis": LEADSCREW.replace("pos 2", "pos x") + "\tkw.ssfk.table[2].pos 4\n",
+    "good/achskw1.lis": LEADSCREW,
+}
 
 
 @pytest.fixture
@@ -60,7 +64,7 @@ def test_fingerprints_stay_when_lines_move_and_differ(printed: Printed) -> None:
         results = json.loads(text)["runs"][0]["results"]
         return [one["partialFingerprints"]["axcomp/v1"] for one in results]
 
-    twice = SCREW + "kw.ssfk.colour 1\nkw.ssfk.colour 1\n"
+    twice = LEADSCREW + "kw.ssfk.colour 1\nkw.ssfk.colour 1\n"
     before = prints(printed("--format", "sarif", files={"achskw1.lis": twice}))
     after = prints(printed("--format", "sarif", files={"achskw1.lis": f"\n\n{twice}"}))
     assert before == after
@@ -92,7 +96,7 @@ def test_junit_has_a_case_for_every_finding_and_one_for_what_is_well(printed: Pr
 
 def test_junit_holds_what_xml_cannot(printed: Printed) -> None:
     ElementTree.fromstring(
-        printed("--format", "junit", files={"achskw1.lis": SCREW + 'kw.ssfk.a\f<&"]]> 1\n'}).encode()
+        printed("--format", "junit", files={"achskw1.lis": LEADSCREW + 'kw.ssfk.a\f<&"]]> 1\n'}).encode()
     )
 
 
@@ -101,7 +105,7 @@ def test_annotations_of_github_are_escaped(printed: Printed) -> None:
     assert first.startswith("::error file=ä b/achskw1.lis,line=6,col=1,title=AXC-ZEROED::kw.ssfk.table[1].pos = x")
     assert second.startswith("::warning file=ä b/achskw1.lis,line=8,col=2,title=AXC-TWICE::")
     [escaped] = printed(
-        "--format", "github", files={"ä b/achskw1.lis": SCREW, "a,b:c%/achskw1.lis": SCREW + "50% %\n"}
+        "--format", "github", files={"ä b/achskw1.lis": LEADSCREW, "a,b:c%/achskw1.lis": LEADSCREW + "50% %\n"}
     ).splitlines()
     assert escaped.startswith("::warning file=a%2Cb%3Ac%25/achskw1.lis,line=8,title=AXC-SYNTAX::“50%25 %25”")
 

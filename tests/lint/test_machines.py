@@ -7,7 +7,8 @@ import time
 from pathlib import Path
 
 import pytest
-from linting import SCREW, Write
+from linting import Write
+from small_lists import LEADSCREW
 
 from axcomp.cli import main
 from axcomp.lint import Settings, find_machines
@@ -25,14 +26,14 @@ def test_a_folder_is_searched_for_machines(write: Write) -> None:
     write(
         {
             "a/hochlauf.lis": START,
-            "a/kw.lis": SCREW,
+            "a/kw.lis": LEADSCREW,
             "a/sub/readme.txt": "kw.ssfk.unit 1",
-            "b/achskw1.lis": SCREW,
+            "b/achskw1.lis": LEADSCREW,
             "c/start.lis": "zahl_kw 1\nachs_kw[0] lists/achskw1.lis\n",
-            "c/lists/achskw1.lis": SCREW,
+            "c/lists/achskw1.lis": LEADSCREW,
             "d/any.lis": "x 1\ny 2\nz 3\nchain XYZ\n",
-            ".hidden/achskw1.lis": SCREW,
-            "node_modules/achskw1.lis": SCREW,
+            ".hidden/achskw1.lis": LEADSCREW,
+            "node_modules/achskw1.lis": LEADSCREW,
         }
     )
     assert names(".") == ["a", "b", "c/start.lis", "d/any.lis"]
@@ -40,7 +41,7 @@ def test_a_folder_is_searched_for_machines(write: Write) -> None:
 
 
 def test_a_list_beside_a_machine_that_does_not_name_it_is_checked_alone(write: Write) -> None:
-    write({"hochlauf.lis": START, "kw.lis": SCREW, "old.lis": SCREW, "achskw7.lis": SCREW})
+    write({"hochlauf.lis": START, "kw.lis": LEADSCREW, "old.lis": LEADSCREW, "achskw7.lis": LEADSCREW})
     assert names(".") == [".", "achskw7.lis", "old.lis"]
 
 
@@ -55,7 +56,7 @@ def test_the_example_machines_are_found() -> None:
 
 
 def test_several_machines_are_summed_up(write: Write, capsys: Capture) -> None:
-    write({"a/achskw1.lis": SCREW, "b/achskw1.lis": SCREW.replace("pos 2", "pos x")})
+    write({"a/achskw1.lis": LEADSCREW, "b/achskw1.lis": LEADSCREW.replace("pos 2", "pos x")})
     assert main(["check", "a", "b"]) == 1
     assert capsys.readouterr().out.splitlines()[-1] == (
         "1 error, 0 warnings, 0 infos; 2 machines, 2 axes with 2 compensations."
@@ -65,18 +66,18 @@ def test_several_machines_are_summed_up(write: Write, capsys: Capture) -> None:
 @pytest.mark.parametrize(
     ("text", "options", "status"),
     [
-        (SCREW, [], 0),
-        (SCREW, ["--fail-on", "info"], 0),
-        (SCREW.replace("pos 2", "pos x"), [], 1),
-        (SCREW.replace("pos 2", "pos x").replace("pos 3", "pos y"), [], 1),
-        (SCREW.replace("pos 2", "pos x"), ["--exit-zero"], 0),
-        (f"{SCREW}kw.ssfk.colour 1\n", [], 0),
-        (f"{SCREW}kw.ssfk.colour 1\n", ["--fail-on", "warning"], 1),
-        (f"{SCREW}kopf.mds_ident 1\n", ["--fail-on", "warning"], 0),
-        (f"{SCREW}kopf.mds_ident 1\n", ["--fail-on", "info"], 1),
-        (SCREW, ["--feed", "fast"], 2),
-        (SCREW, ["--select", "nothing"], 2),
-        (SCREW, ["--feed", "fast", "--exit-zero"], 2),
+        (LEADSCREW, [], 0),
+        (LEADSCREW, ["--fail-on", "info"], 0),
+        (LEADSCREW.replace("pos 2", "pos x"), [], 1),
+        (LEADSCREW.replace("pos 2", "pos x").replace("pos 3", "pos y"), [], 1),
+        (LEADSCREW.replace("pos 2", "pos x"), ["--exit-zero"], 0),
+        (f"{LEADSCREW}kw.ssfk.colour 1\n", [], 0),
+        (f"{LEADSCREW}kw.ssfk.colour 1\n", ["--fail-on", "warning"], 1),
+        (f"{LEADSCREW}kopf.mds_ident 1\n", ["--fail-on", "warning"], 0),
+        (f"{LEADSCREW}kopf.mds_ident 1\n", ["--fail-on", "info"], 1),
+        (LEADSCREW, ["--feed", "fast"], 2),
+        (LEADSCREW, ["--select", "nothing"], 2),
+        (LEADSCREW, ["--feed", "fast", "--exit-zero"], 2),
     ],
 )
 def test_the_exit_status_is_that_of_a_linter(text: str, options: list[str], status: int, write: Write) -> None:
@@ -86,13 +87,13 @@ def test_the_exit_status_is_that_of_a_linter(text: str, options: list[str], stat
 
 @pytest.mark.parametrize("options", [["--format", "xml"], ["--fail-on", "fatal"], ["--fix", "--diff"]])
 def test_a_wrong_command_line_is_2_too(options: list[str], write: Write) -> None:
-    write({"achskw1.lis": SCREW})
+    write({"achskw1.lis": LEADSCREW})
     with pytest.raises(SystemExit, match="2"):
         main(["check", ".", *options])
 
 
 def test_quiet_is_silent_where_nothing_is_found(write: Write, capsys: Capture) -> None:
-    write({"achskw1.lis": SCREW, "sub/achskw1.lis": f"{SCREW}kw.ssfk.colour 1\n"})
+    write({"achskw1.lis": LEADSCREW, "sub/achskw1.lis": f"{LEADSCREW}kw.ssfk.colour 1\n"})
     assert main(["check", "achskw1.lis", "-q"]) == 0
     assert capsys.readouterr().out == ""
     main(["check", "sub", "-q"])
@@ -106,15 +107,15 @@ def test_the_version_is_told(capsys: Capture) -> None:
 
 
 def test_standard_input_is_a_list_of_any_kind(write: Write, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    write({"sub/kw.lis": SCREW})
+    write({"sub/kw.lis": LEADSCREW})
 
     def told(text: str, *options: str) -> list[tuple[str, str]]:
         monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text.encode("latin-1"))))
         main(["check", "-", "--format", "json", *options])
         return [(one["file"], one["code"]) for one in json.loads(capsys.readouterr().out)["findings"]]
 
-    assert told(SCREW + "# ä\n") == []
-    assert told(SCREW.replace("pos 2", "pos x")) == [("-", "AXC-ZEROED")]
+    assert told(LEADSCREW + "# ä\n") == []
+    assert told(LEADSCREW.replace("pos 2", "pos x")) == [("-", "AXC-ZEROED")]
     assert told("lr_param.ssfk 1\n") == [("-", "AXC-NUMBER")]
     assert told(START) == [("-", "AXC-MISSING")] * len(told(START))
     assert told(START, "--stdin-filename", "sub/hochlauf.lis") == []
@@ -144,7 +145,7 @@ def test_a_real_machine_that_is_well_is_told_in_ten_lines(tmp_path: Path, capsys
 
 
 def _machine(**more: str) -> dict[str, str]:
-    return {"m/hochlauf.lis": START, "m/kw.lis": SCREW} | more
+    return {"m/hochlauf.lis": START, "m/kw.lis": LEADSCREW} | more
 
 
 @pytest.mark.parametrize(
@@ -153,10 +154,10 @@ def _machine(**more: str) -> dict[str, str]:
         _machine(),
         {"m/hochlauf.lis": "zahl_kw 0\n"},
         {"m/hochlauf.lis": "zahl_mds 1\nachs_mds[0] a.lis\n", "m/a.lis": "kopf.achs_nr 1\n"},
-        {"m/hochlauf.lis": START.replace("kw.lis", "HERE/m/kw.lis"), "m/kw.lis": SCREW},
-        {"m/hochlauf.lis": START.replace("kw.lis", "../other/kw.lis"), "other/kw.lis": SCREW},
-        {"m/hochlauf.lis": START.replace("kw.lis", "HERE/other/kw.lis"), "other/kw.lis": SCREW},
-        {"m/achskw1.lis": SCREW},
+        {"m/hochlauf.lis": START.replace("kw.lis", "HERE/m/kw.lis"), "m/kw.lis": LEADSCREW},
+        {"m/hochlauf.lis": START.replace("kw.lis", "../other/kw.lis"), "other/kw.lis": LEADSCREW},
+        {"m/hochlauf.lis": START.replace("kw.lis", "HERE/other/kw.lis"), "other/kw.lis": LEADSCREW},
+        {"m/achskw1.lis": LEADSCREW},
         {"m/vol_comp0.lis": "x 1\ny 2\nz 3\nfile[0] e.csv\n", "m/e.csv": "X EXX\n0 1e-3\n"},
     ],
 )

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 import yaml
-from linting import SCREW, Write
+from linting import Write
+from small_lists import LEADSCREW
 
 from axcomp.cli import COMMANDS, main
 
@@ -18,7 +19,7 @@ ROOT = Path(__file__).parents[2]
 def test_the_hooks_call_commands_that_are_there(write: Write) -> None:
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     assert [hook["id"] for hook in hooks] == ["axcomp-check", "axcomp-format"]
-    write({"achskw1.lis": SCREW.replace("pos 2", "pos x")})
+    write({"achskw1.lis": LEADSCREW.replace("pos 2", "pos x")})
     for hook, status in zip(hooks, (1, 0), strict=True):
         assert {"id", "name", "entry", "language", "files"} <= set(hook)
         assert all(re.search(hook["files"], name) for name in ("a/achskw1.LIS", "b.tsproj", "c.xti"))
@@ -37,7 +38,7 @@ def test_the_action_checks_what_it_is_given(write: Write) -> None:
     assert names | {"python-version"} == set(action["inputs"])
     # Nothing of the inputs is written into the script itself.
     assert "${{" not in check["run"]
-    folder = write({"a b/achskw1.lis": SCREW, "c/achskw1.lis": SCREW.replace("pos 2", "pos x")})
+    folder = write({"a b/achskw1.lis": LEADSCREW, "c/achskw1.lis": LEADSCREW.replace("pos 2", "pos x")})
     environment = {
         "AXCOMP_PATHS": "c",
         "AXCOMP_FORMAT": "github",

@@ -5,13 +5,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from linting import SCREW, Write
+from linting import Write
+from small_lists import LEADSCREW
 
 from axcomp.cli import main
 from axcomp.lint import SettingsError, find_settings
 
 Codes = Callable[..., list[str]]
-FAULTS = SCREW + "kw.ssfk.table[2].pos 4\nkw.ssfk.colour 1\nkw.ssfk.table[3].pos 9\n"
+FAULTS = LEADSCREW + "kw.ssfk.table[2].pos 4\nkw.ssfk.colour 1\nkw.ssfk.table[3].pos 9\n"
 """AXC-TWICE in line 8, AXC-UNKNOWN in 9, AXC-UNUSED in 10."""
 
 
@@ -37,7 +38,7 @@ def test_codes_are_chosen_by_their_beginnings_the_closest_decides(
 
 @pytest.mark.parametrize("option", ["--select=AXC-NO-SUCH", "--ignore=X", "--select="])
 def test_what_is_no_code_is_refused(option: str, write: Write, capsys: pytest.CaptureFixture[str]) -> None:
-    write({"achskw1.lis": SCREW})
+    write({"achskw1.lis": LEADSCREW})
     assert main(["check", "achskw1.lis", option]) == 2
     assert "no code of a finding" in capsys.readouterr().err
 
@@ -73,7 +74,7 @@ def test_a_list_hides_findings_about_its_entries(text: str, expected: list[str],
 
 
 def test_an_error_that_is_hidden_does_not_fail(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
-    write({"achskw1.lis": SCREW.replace("pos 2", "pos x # axcomp: ignore AXC-ZEROED")})
+    write({"achskw1.lis": LEADSCREW.replace("pos 2", "pos x # axcomp: ignore AXC-ZEROED")})
     assert main(["check", "achskw1.lis"]) == 0
     assert "0 errors, 0 warnings, 0 infos, 1 hidden;" in capsys.readouterr().out
 
@@ -101,7 +102,7 @@ def test_excluded_folders_are_not_searched(write: Write, codes: Codes) -> None:
             "axcomp.toml": 'exclude = ["old", "b*/x"]\n',
             "old/achskw1.lis": FAULTS,
             "b1/x/achskw1.lis": FAULTS,
-            "c/achskw1.lis": SCREW,
+            "c/achskw1.lis": LEADSCREW,
         }
     )
     assert codes(".") == []
@@ -132,7 +133,7 @@ def test_fail_on_and_format_are_settings(write: Write, capsys: pytest.CaptureFix
 def test_settings_that_cannot_be_followed_are_refused_with_a_sentence(
     text: str, sentence: str, write: Write, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    folder = write({"axcomp.toml": text, "achskw1.lis": SCREW})
+    folder = write({"axcomp.toml": text, "achskw1.lis": LEADSCREW})
     assert main(["check", "."]) == 2
     told = capsys.readouterr().err
     assert sentence in told
@@ -153,7 +154,7 @@ def test_what_is_known_is_not_told_again_but_what_is_new_is(write: Write, codes:
 
 @pytest.mark.parametrize("content", [None, "{", "[]", '{"version": 9}', '{"version": 1, "findings": [{}]}'])
 def test_what_is_no_baseline_is_refused(content: str | None, write: Write, capsys: pytest.CaptureFixture[str]) -> None:
-    write({"achskw1.lis": SCREW} | ({} if content is None else {"known.json": content}))
+    write({"achskw1.lis": LEADSCREW} | ({} if content is None else {"known.json": content}))
     assert main(["check", ".", "--baseline", "known.json"]) == 2
     assert "known.json" in capsys.readouterr().err
     assert not Path("-").exists()

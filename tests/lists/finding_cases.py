@@ -2,15 +2,8 @@
 
 from typing import NamedTuple
 
-LEADSCREW = """\
-kopf.achs_nr 1
-kw.ssfk.unit 1
-kw.ssfk.interval 100000
-kw.ssfk.kw_nr_max 3
-kw.ssfk.table[0].pos 1
-kw.ssfk.table[1].pos 2
-kw.ssfk.table[2].pos 3
-"""
+from small_lists import LEADSCREW
+
 CROSS = """\
 kopf.achs_nr 1
 kw.crosscomp.unit 1

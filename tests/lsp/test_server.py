@@ -12,6 +12,7 @@ import pytest
 from editing import Editor, applied, edit, marked
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
+from small_lists import LEADSCREW
 
 from axcomp.lists import read_machine
 from axcomp.lsp import Text
@@ -25,15 +26,7 @@ zahl_mds 2
 achs_mds[0] achsmd1.lis
 achs_mds[1] achsmd2.lis
 """
-SCREW = """\
-kopf.achs_nr {n}
-kw.ssfk.unit 1
-kw.ssfk.interval 100000
-kw.ssfk.kw_nr_max 3
-kw.ssfk.table[0].pos 1
-kw.ssfk.table[1].pos 2
-kw.ssfk.table[2].pos 3
-"""
+SCREW = LEADSCREW.replace("achs_nr 1", "achs_nr {n}")
 CROSS = """\
 kw.crosscomp.unit 1
 kw.crosscomp.last_index 1
